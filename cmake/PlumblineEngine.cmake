@@ -1,0 +1,36 @@
+# plumbline_add_engine(NAME SOURCES ... [LIBRARIES ...] [DEFINITIONS ...])
+# turns one adapter into the worker program plumbline-engine-NAME, with its list of deviations beside it, and puts
+# it before the conformance suite. An adapter calls it only when its engine was found; otherwise it calls
+# plumbline_skip_engine.
+function(plumbline_add_engine name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;DEFINITIONS" ${ARGN})
+  set(adapter plumbline_adapter_${name})
+  add_library(${adapter} STATIC ${ARG_SOURCES})
+  add_library(plumbline::adapter_${name} ALIAS ${adapter})
+  target_link_libraries(${adapter} PUBLIC plumbline::core PRIVATE ${ARG_LIBRARIES})
+  target_compile_definitions(${adapter} PRIVATE ${ARG_DEFINITIONS})
+  plumbline_compile_options(${adapter})
+
+  set(worker plumbline-engine-${name})
+  add_executable(${worker} ${PROJECT_SOURCE_DIR}/cli/worker/worker_main.cpp)
+  target_link_libraries(${worker} PRIVATE ${adapter} plumbline::harness plumbline::scenarios)
+  plumbline_compile_options(${worker})
+  set(folder ${PROJECT_BINARY_DIR}/${PLUMBLINE_WORKER_DIR})
+  set_target_properties(${worker} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${folder})
+  install(TARGETS ${worker} DESTINATION ${PLUMBLINE_WORKER_DIR})
+
+  set(deviations ${CMAKE_CURRENT_SOURCE_DIR}/deviations.toml)
+  if(EXISTS ${deviations})
+    file(MAKE_DIRECTORY ${folder})
+    file(CREATE_LINK ${deviations} ${folder}/${worker}.deviations.toml SYMBOLIC)
+    install(FILES ${deviations} DESTINATION ${PLUMBLINE_WORKER_DIR} RENAME ${worker}.deviations.toml)
+  endif()
+
+  set_property(GLOBAL APPEND PROPERTY PLUMBLINE_ENGINES ${name})
+  message(STATUS "Engine ${name}: worker program ${worker}")
+endfunction()
+
+# plumbline_skip_engine(NAME PACKAGE): says in one line that the engine is left out and how to get it.
+function(plumbline_skip_engine name package)
+  message(STATUS "Engine ${name}: left out, its library was not found (Debian package: ${package})")
+endfunction()

@@ -1,0 +1,82 @@
+// A scenario: the stated problem, complete and free of any engine.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plumbline/core/body.hpp"
+#include "plumbline/core/gate.hpp"
+
+namespace plumbline {
+
+// What happens where two bodies touch. It is stated per pair: how an engine combines per-body coefficients
+// (product, maximum, square root ...) is its adapter's business.
+struct ContactMaterial {
+  double restitution = 0;  // Newton's e in [0, 1]: v_n+ = -e v_n-
+  double friction = 0;     // Coulomb's mu >= 0, the same for sticking and sliding
+};
+
+// A force law: what acts on one body as a function of time [s] and that body's own state.
+struct ForceLaw {
+  std::size_t body = 0;
+  std::function<Wrench(double t, const BodyState&)> evaluate;
+  // Whether motion within the x-z plane depends on y, vy or rotation out of the plane, and whether the law
+  // itself turns the body out of the plane. A planar engine needs to know.
+  bool couples_out_of_plane = false;
+  bool has_torque = false;  // a torque is stated, or the force acts off the centre of mass
+  std::string text;  // as written, for people
+};
+
+// Something that the reference says happens at an exact time: bodies a and b touch.
+struct Event {
+  std::string name;
+  std::size_t body_a = 0, body_b = 0;
+  double time = 0;  // [s]
+};
+
+// Characteristic magnitudes. Dividing by them makes every tolerance dimensionless.
+struct Scales {
+  double length = 1;  // [m]
+  double time = 1;    // [s]
+  double mass = 1;    // [kg]
+  double velocity() const { return length / time; }
+  double energy() const { return mass * velocity() * velocity(); }
+  double momentum() const { return mass * velocity(); }
+};
+
+using Parameters = std::vector<std::pair<std::string, double>>;  // in the order of the file
+
+struct Scenario {
+  std::string id;      // "family/case"
+  std::string about;   // one line
+  std::string source;  // citation: slide, paper, page
+  Parameters parameters;  // the values of this case, all of them
+  Parameters swept;       // the part of them that tells this case from its siblings
+
+  Vec3 gravity = Vec3::Zero();  // [m/s^2]
+  double duration = 0;          // [s]
+  std::vector<double> steps;    // the dt to run [s]
+  Scales scales;
+
+  std::vector<Body> bodies;
+  std::vector<ForceLaw> forces;
+  std::optional<ContactMaterial> contact;  // none: bodies pass through each other
+
+  std::vector<Event> events;  // in order of time
+  std::vector<Gate> gates;
+  double t_valid = 0;  // beyond it pointwise comparison means nothing (chaos) [s]
+
+  // "particle/drag_ship" or "collision/two_sphere/e=0.5,b=0": unique among all cases of all files.
+  std::string case_name() const;
+  // Number of whole steps of dt that fit into the duration (a step that misses by rounding counts).
+  std::size_t step_count(double dt) const;
+  std::size_t body_index(const std::string& name) const;  // throws std::out_of_range
+};
+
+// Shortest decimal that reads back as the same double: 0.02, 1e-09, 0.016666666666666666.
+std::string shortest(double value);
+
+}  // namespace plumbline

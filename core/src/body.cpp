@@ -1,0 +1,28 @@
+#include "plumbline/core/body.hpp"
+
+#include <stdexcept>
+
+namespace plumbline {
+
+std::string_view shape_name(const Shape& shape) {
+  static constexpr std::string_view kNames[] = {"sphere", "box", "half_space"};
+  return kNames[shape.index()];
+}
+
+Vec3 solid_inertia(const Shape& shape, double mass) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    return Vec3::Constant(0.4 * mass * sphere->radius * sphere->radius);
+  }
+  if (const auto* box = std::get_if<Box>(&shape)) {
+    const Vec3 s2 = box->size.cwiseAbs2();
+    return mass / 12.0 * Vec3(s2.y() + s2.z(), s2.z() + s2.x(), s2.x() + s2.y());
+  }
+  throw std::invalid_argument("a half-space has no inertia: it is infinite and always fixed");
+}
+
+Mat3 inertia_in_world(const Body& body, const Quat& q_WB) {
+  const Mat3 r_WB = q_WB.toRotationMatrix();
+  return r_WB * body.inertia.asDiagonal() * r_WB.transpose();
+}
+
+}  // namespace plumbline
