@@ -32,5 +32,14 @@ endfunction()
 
 # plumbline_skip_engine(NAME PACKAGE): says in one line that the engine is left out and how to get it.
 function(plumbline_skip_engine name package)
+  set_property(GLOBAL APPEND_STRING PROPERTY PLUMBLINE_ENGINES_LEFT_OUT "${name}\t${package}\n")
   message(STATUS "Engine ${name}: left out, its library was not found (Debian package: ${package})")
+endfunction()
+
+# plumbline_write_left_out_engines(): the list that `plumbline doctor` reads.
+function(plumbline_write_left_out_engines)
+  get_property(left_out GLOBAL PROPERTY PLUMBLINE_ENGINES_LEFT_OUT)
+  set(file ${PROJECT_BINARY_DIR}/share/plumbline/engines_left_out.tsv)
+  file(WRITE ${file} "${left_out}")
+  install(FILES ${file} DESTINATION share/plumbline)
 endfunction()

@@ -1,0 +1,124 @@
+#include "deviation_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <string_view>
+#define TOML_ENABLE_FORMATTERS 0
+#include <toml++/toml.h>
+
+#include "plumbline/core/metric.hpp"
+#include "selection.hpp"
+#include "usage_error.hpp"
+
+namespace plumbline {
+namespace {
+
+class Reader {
+ public:
+  explicit Reader(std::string file) : file_(std::move(file)) {}
+
+  std::vector<Deviation> read() {
+    toml::table root;
+    try {
+      root = toml::parse_file(file_);
+    } catch (const toml::parse_error& e) {
+      throw UsageError(fmt::format("{}:{}:{}: {}", file_, e.source().begin.line, e.source().begin.column,
+                                   std::string_view(e.description())));
+    }
+    for (auto&& [key, node] : root) {
+      if (key.str() != "deviation") fail(node, fmt::format("unknown key '{}'; only [[deviation]] stands here", key.str()));
+    }
+    if (const toml::array* entries = root["deviation"].as_array()) {
+      for (const toml::node& entry : *entries) add(require_table(entry));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void fail(const toml::node& node, const std::string& what) const {
+    throw UsageError(fmt::format("{}:{}:{}: {}", file_, node.source().begin.line, node.source().begin.column, what));
+  }
+
+  const toml::table& require_table(const toml::node& node) const {
+    if (!node.is_table()) fail(node, "a table is needed here");
+    return *node.as_table();
+  }
+
+  std::string text(const toml::node& node) const {
+    const auto value = node.value<std::string>();
+    if (!value) fail(node, "a text in quotes is needed here");
+    return *value;
+  }
+
+  double number(const toml::node& node) const {
+    const auto value = node.value<double>();
+    if (!value) fail(node, "a number is needed here");
+    return *value;
+  }
+
+  template <typename Take>
+  void each(const toml::node& node, const Take& take) const {
+    if (!node.is_array()) fail(node, "a list in [ ] is needed here");
+    for (const toml::node& item : *node.as_array()) take(item);
+  }
+
+  void add(const toml::table& entry) {
+    Deviation base;
+    base.place = {file_, static_cast<int>(entry.source().begin.line), static_cast<int>(entry.source().begin.column)};
+    const toml::table* limits = nullptr;
+    for (auto&& [key, node] : entry) {
+      const std::string_view name = key.str();
+      if (name == "engines") {
+        each(node, [&](const toml::node& item) { base.engines.push_back(text(item)); });
+      } else if (name == "scenario") {
+        base.scenario = text(node);
+      } else if (name == "parameters") {
+        for (auto&& [parameter, value] : require_table(node)) {
+          base.parameters.emplace_back(std::string(parameter.str()), number(value));
+        }
+      } else if (name == "profile") {
+        const std::string profile = text(node);
+        if (profile != "default" && profile != "matched") fail(node, "profile is \"default\" or \"matched\"");
+        base.profile = profile == "default" ? Profile::kDefault : Profile::kMatched;
+      } else if (name == "dt") {
+        each(node, [&](const toml::node& item) {
+          base.dt.push_back(item.is_string() ? parse_step(text(item)) : number(item));
+        });
+      } else if (name == "limits") {
+        limits = &require_table(node);
+      } else if (name == "why") {
+        base.why = text(node);
+      } else if (name == "link") {
+        base.link = text(node);
+      } else {
+        fail(node, fmt::format("unknown key '{}'; a deviation has engines, scenario, parameters, profile, dt, limits, "
+                               "why, link", name));
+      }
+    }
+    if (base.scenario.empty()) fail(entry, "a deviation must name its scenario");
+    if (base.why.empty()) fail(entry, "a deviation must say why: the cause is the point of the list");
+    if (limits == nullptr || limits->empty()) fail(entry, "a deviation must give limits = { \"metric\" = number }");
+    for (auto&& [metric, value] : *limits) {
+      if (find_metric(metric.str()) == nullptr) fail(value, fmt::format("there is no metric '{}'", metric.str()));
+      Deviation deviation = base;
+      deviation.metric = metric.str();
+      deviation.limit = number(value);
+      if (!(deviation.limit >= 0)) fail(value, "a limit must be >= 0; write inf for 'however large'");
+      result_.push_back(std::move(deviation));
+    }
+  }
+
+  std::string file_;
+  std::vector<Deviation> result_;
+};
+
+}  // namespace
+
+std::vector<Deviation> read_deviations(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) return {};
+  return Reader(file.string()).read();
+}
+
+}  // namespace plumbline

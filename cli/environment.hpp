@@ -1,0 +1,15 @@
+// What a result depends on besides the code: machine, system, compiler, flags.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace plumbline {
+
+using Environment = std::vector<std::pair<std::string, std::string>>;
+
+// date (UTC), system, processor, cores, compiler, build flags.
+Environment describe_environment();
+
+}  // namespace plumbline

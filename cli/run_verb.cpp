@@ -1,0 +1,249 @@
+// plumbline run: the main job.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "environment.hpp"
+#include "inventory.hpp"
+#include "plumbline/reports/console.hpp"
+#include "plumbline/reports/html_page.hpp"
+#include "plumbline/reports/progress.hpp"
+#include "plumbline/reports/results_json.hpp"
+#include "plumbline/reports/trajectory_csv.hpp"
+#include "selection.hpp"
+#include "usage_error.hpp"
+#include "verbs.hpp"
+
+namespace plumbline {
+namespace fs = std::filesystem;
+namespace {
+
+struct RunOptions {
+  std::vector<std::string> paths, filter, engines, parameters, steps;
+  std::string profile = "both", output = "plumbline-results";
+  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  double timeout = 30;
+  unsigned repeat = 1;
+  bool json = false, dry_run = false, no_trajectories = false, quiet = false, verbose = false;
+};
+
+std::atomic<bool> stop_requested = false;
+
+// The first Ctrl-C ends in order and keeps what there is; the second one ends at once.
+void request_stop(int signal) {
+  stop_requested = true;
+  std::signal(signal, SIG_DFL);
+}
+
+std::vector<Profile> profiles_of(const std::string& word) {
+  if (word == "default") return {Profile::kDefault};
+  if (word == "matched") return {Profile::kMatched};
+  return {Profile::kDefault, Profile::kMatched};
+}
+
+// Keeps results.json up to date while the runs go on, so that even a killed run leaves what it had. Written anew at
+// most every two seconds: the file is rewritten whole each time.
+class Keeper {
+ public:
+  Keeper(const Report& report, fs::path file) : report_(report), file_(std::move(file)) {}
+
+  void keep() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < std::chrono::seconds(2)) return;
+    write_results(report_, file_);
+    last_ = now;
+  }
+
+ private:
+  const Report& report_;
+  fs::path file_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+int exit_code(const Report& report) {
+  if (report.interrupted) return kExitInterrupted;
+  bool infrastructure = false, failed = false, all_skipped = true;
+  for (const RunResult& run : report.runs) {
+    const VerdictRow& row = row_of(run.verdict);
+    infrastructure |= row.infrastructure;
+    failed |= row.breaks_build;
+    all_skipped &= run.verdict == Verdict::kUnsupported;
+  }
+  if (infrastructure) return kExitEngineError;
+  if (failed) return kExitGateFailed;
+  return all_skipped ? kExitAllSkipped : kExitPass;
+}
+
+// The folder of one case below trajectories/: "particle/drag_ship" or "collision/two_sphere/e=0.5,b=0".
+fs::path trajectory_path(const RunResult& run) {
+  return fs::path("trajectories") / run.case_name /
+         fmt::format("{}.{}.dt={}.csv", run.engine, profile_name(run.profile), shortest(run.dt));
+}
+
+class RunVerb {
+ public:
+  explicit RunVerb(const RunOptions& options) : options_(options), output_(options.output) {}
+
+  int run() {
+    if (!prepare()) return nothing_matched();
+    if (options_.dry_run) return print_plan();
+    const auto start = std::chrono::steady_clock::now();
+    carry_out();
+    report_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    finish();
+    return exit_code(report_);
+  }
+
+ private:
+  // False when nothing is left to run.
+  bool prepare() {
+    const Overrides overrides = parse_parameters(options_.parameters);
+    const auto selected = name_filter(options_.filter);
+    const std::vector<double> steps = parse_steps(options_.steps);
+    const Installation installation = find_installation();
+    scenarios_ = load_scenarios(installation, options_.paths, overrides);
+    if (!steps.empty()) {
+      for (CaseInput& c : scenarios_.cases) c.scenario.steps = steps;
+      for (ScenarioSummary& s : scenarios_.summaries) s.steps = steps;
+    }
+    engines_ = load_engines(installation);
+    for (const MissingEngine& m : engines_.missing) {
+      fmt::print(stderr, "note: engine {} is left out: {}\n", m.name, m.reason);
+    }
+    select_engines(engines_, options_.engines);
+    std::vector<EngineInfo> infos;
+    for (const EngineRow& row : engines_.rows) infos.push_back(row.info);
+    plan_ = plan_runs(scenarios_.cases, infos, profiles_of(options_.profile), selected);
+    report_.tool_version = PLUMBLINE_VERSION;
+    report_.environment = describe_environment();
+    report_.engines = infos;
+    report_.missing_engines = engines_.missing;
+    keep_planned_scenarios();
+    return !plan_.empty();
+  }
+
+  // The report speaks of the scenarios that were run, not of those that a filter left out.
+  void keep_planned_scenarios() {
+    std::vector<bool> planned(scenarios_.cases.size());
+    for (const PlannedRun& run : plan_) planned[run.case_index] = true;
+    for (ScenarioSummary summary : scenarios_.summaries) {
+      std::erase_if(summary.cases, [&](const std::string& name) {
+        for (std::size_t c = 0; c < planned.size(); ++c) {
+          if (scenarios_.cases[c].scenario.case_name() == name) return !planned[c];
+        }
+        return true;
+      });
+      if (!summary.cases.empty()) report_.scenarios.push_back(std::move(summary));
+    }
+  }
+
+  int nothing_matched() const {
+    fmt::print(stderr, "error: nothing matched{}; `plumbline list` shows what there is\n",
+               options_.filter.empty() ? "" : " " + joined(options_.filter));
+    return kExitNothingMatched;
+  }
+
+  int print_plan() const {
+    for (const PlannedRun& run : plan_) {
+      fmt::print("{}\n", run_name(scenarios_.cases[run.case_index].scenario, engines_.rows[run.engine_index].info.name,
+                                  run.profile, run.dt));
+    }
+    return kExitPass;
+  }
+
+  void carry_out() {
+    std::signal(SIGINT, request_stop);
+    std::signal(SIGTERM, request_stop);
+    fs::remove_all(output_ / "trajectories");  // those of an earlier run would pass for this one's
+    write_results(report_, output_ / "results.json");
+
+    Progress progress(std::cerr, options_.quiet ? Progress::Mode::kSilent : Progress::mode_for(STDERR_FILENO));
+    progress.begin(plan_.size());
+    VerdictCounts counts{};
+    std::size_t done = 0;
+    Keeper keeper(report_, output_ / "results.json");
+    CampaignObserver observer;
+    observer.finished = [&](RunResult& run, const Trajectory& trajectory) {
+      if (trajectory.samples() > 0 && !options_.no_trajectories) {
+        run.trajectory = trajectory_path(run).generic_string();
+        write_trajectory(trajectory, scenario_of(run), output_ / run.trajectory);
+      }
+      ++counts[static_cast<std::size_t>(run.verdict)];
+      progress.update(++done, run.case_name + ' ' + run.engine, counts);
+      keeper.keep();
+    };
+    run_campaign(scenarios_.cases, engines_.rows, plan_, *engines_.pool,
+                 {options_.jobs, WorkerPool::Seconds(options_.timeout), options_.repeat}, observer, stop_requested,
+                 report_);
+    progress.end();
+  }
+
+  const Scenario& scenario_of(const RunResult& run) const {
+    const auto found = std::find_if(scenarios_.cases.begin(), scenarios_.cases.end(), [&](const CaseInput& c) {
+      return c.scenario.case_name() == run.case_name;
+    });
+    return found->scenario;
+  }
+
+  void finish() {
+    write_results(report_, output_ / "results.json");
+    write_html(report_, output_ / "report.html");
+    if (options_.json) {
+      std::cout << results_json(report_) << std::flush;
+    } else {
+      const std::string files = fmt::format("{} and report.html", (output_ / "results.json").string());
+      print_report(report_, console_style_for(STDOUT_FILENO), std::cout, {options_.verbose, files});
+    }
+    if (report_.interrupted) {
+      fmt::print(stderr, "interrupted: {} of {} runs were finished and are kept in {}\n", report_.runs.size(),
+                 plan_.size(), output_.string());
+    }
+  }
+
+  const RunOptions& options_;
+  fs::path output_;
+  ScenarioInventory scenarios_;
+  EngineInventory engines_;
+  std::vector<PlannedRun> plan_;
+  Report report_;
+};
+
+}  // namespace
+
+void add_run_verb(CLI::App& program, Action& action) {
+  const auto o = std::make_shared<RunOptions>();
+  CLI::App* verb = program.add_subcommand("run", "Run scenarios on engines, measure how far off they are, write the report");
+  verb->add_option("paths", o->paths, "Scenario files or folders instead of the built-in catalogue");
+  verb->add_option("-f,--filter", o->filter,
+                   "Only runs whose name (scenario/case/engine.profile.dt=...) matches this regular expression; -REGEX "
+                   "negates; all given must hold")
+      ->allow_extra_args(false);
+  verb->add_option("-e,--engines", o->engines, "Only these engines: bullet-f32, or bullet for all its rows")->delimiter(',');
+  verb->add_option("--profile", o->profile, "Engine settings: default, matched or both")
+      ->check(CLI::IsMember({"default", "matched", "both"}))
+      ->capture_default_str();
+  verb->add_option("-P,--parameter", o->parameters, "NAME=VALUE[,VALUE...]: set or sweep a scenario parameter")
+      ->allow_extra_args(false);
+  verb->add_option("--dt", o->steps, "Time steps [s] instead of the scenario's: 0.02,1/240")->delimiter(',');
+  verb->add_option("-j,--jobs", o->jobs, "Runs at once")->check(CLI::Range(1u, 1024u))->capture_default_str();
+  verb->add_option("--timeout", o->timeout, "Wall-clock limit of one run [s]")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--repeat", o->repeat, "Every run must give the same bits this many times")
+      ->check(CLI::Range(1u, 1000u))
+      ->capture_default_str();
+  verb->add_option("-o,--output", o->output, "Folder for results.json, trajectories/ and report.html")->capture_default_str();
+  verb->add_flag("--json", o->json, "Print results.json on standard output instead of the table");
+  verb->add_flag("--no-trajectories", o->no_trajectories, "Do not write trajectory files");
+  verb->add_flag("-n,--dry-run", o->dry_run, "Only print the names of the runs");
+  verb->add_flag("-v,--verbose", o->verbose, "The table in full");
+  verb->add_flag("-q,--quiet", o->quiet, "No progress display");
+  verb->callback([o, &action] { action = [o] { return RunVerb(*o).run(); }; });
+}
+
+}  // namespace plumbline

@@ -1,0 +1,23 @@
+// What the user asked for cannot be done as written: exit code 2.
+#pragma once
+
+#include <stdexcept>
+
+namespace plumbline {
+
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum ExitCode {
+  kExitPass = 0,
+  kExitGateFailed = 1,
+  kExitUsage = 2,
+  kExitEngineError = 3,
+  kExitNothingMatched = 4,
+  kExitAllSkipped = 77,
+  kExitInterrupted = 130,
+};
+
+}  // namespace plumbline
