@@ -28,6 +28,9 @@ void add_metric(RunChange& change, const RunResult& before, const RunResult& aft
   double largest = -1;
   for (const GateResult& gate : after.gates) {
     const double old_value = before.metric(gate.metric), new_value = after.metric(gate.metric);
+    // Far below its limit a number is rounding noise, which differs between machines.
+    const double noise = 1e-6 * gate.limit;
+    if (within(old_value, noise) && within(new_value, noise)) continue;
     const double g = std::abs(growth(old_value, new_value));
     if (g > largest) {
       largest = g;
@@ -36,7 +39,7 @@ void add_metric(RunChange& change, const RunResult& before, const RunResult& aft
       change.new_value = new_value;
     }
   }
-  if (largest < 0 && !before.metrics.empty() && !after.metrics.empty()) {
+  if (largest < 0 && after.gates.empty() && !before.metrics.empty() && !after.metrics.empty()) {
     change.metric = "position.max";
     change.old_value = before.metric("position.max");
     change.new_value = after.metric("position.max");

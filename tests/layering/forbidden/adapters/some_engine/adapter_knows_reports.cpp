@@ -1,0 +1,2 @@
+#include "plumbline/core/engine.hpp"
+#include "plumbline/reports/console.hpp"

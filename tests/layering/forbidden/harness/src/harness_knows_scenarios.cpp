@@ -1,0 +1,1 @@
+#include <plumbline/scenarios/scenario_file.hpp>

@@ -1,0 +1,1 @@
+#include "../harness/src/inner.hpp"
