@@ -1,0 +1,102 @@
+// The in-house simulator: a scenario moved forward by a stated scheme.
+//
+// It is two things at once: an engine like any other, and the scheme-exact second reference. Told which scheme an
+// engine uses, it predicts that engine's trajectory to rounding, so that an error can be explained.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "plumbline/core/feature.hpp"
+#include "plumbline/core/kinetics/contact.hpp"
+#include "plumbline/core/kinetics/impulse.hpp"
+#include "plumbline/core/kinetics/scheme.hpp"
+#include "plumbline/core/kinetics/time_of_impact.hpp"
+#include "plumbline/core/trajectory.hpp"
+
+namespace plumbline {
+
+struct SimulatorOptions {
+  // Impacts that one step may hold before the simulator gives up: bodies caught between others hit each other
+  // without end. Only for ImpactRule::kExactTime.
+  int max_events_per_step = 100;
+  // Bodies closer than this fraction of their size touch. It must lie above the rounding of positions and of
+  // kImpactTolerance, and far below any gap that matters.
+  double contact_tolerance = 1e-10;
+};
+
+// What a scenario may need for the simulator to run it.
+FeatureSet simulator_features();
+
+// Impacts at their exact time (course slide 24, the simple motion simulator, with one correction: the slide resolves
+// all collisions of a step in any order and then advances all bodies once; here the earliest impact comes first, all
+// bodies advance to it, it is resolved, and what follows is computed anew).
+//
+// Within a step, Euler's schemes move bodies along straight lines, with the velocity of their kind, and Verlet along
+// parabolas under the held acceleration; that is the motion along which times of impact are sought.
+//
+// Resting contact. A contact that touches and whose approach speed one step of free acceleration explains,
+// u <= 2 |a_n| dt with a_n the relative acceleration along the normal without contacts, is at rest: its e is 0. So a
+// box that lies stays where it is, and a bouncing ball comes to rest once its bounces take less than a few steps.
+// The factor 2 leaves room for a contact that was noticed one step late. The rule holds for every ImpactRule.
+// Where bodies rest, the impulse of the step acts like a force that is held over it.
+//
+// Overlap, which ImpactRule::kStepStart produces by its nature, is never pushed out: engines differ in how they
+// do that, and it belongs to them.
+class Simulator {
+ public:
+  // Throws std::invalid_argument for a body without mass and for contacts that cannot be computed.
+  Simulator(const Scenario& scenario, const Scheme& scheme, const SimulatorOptions& options = {});
+
+  // One wrench per body for the next step only. Throws std::invalid_argument when their number differs.
+  void apply(std::span<const Wrench> wrenches);
+  // Advances by dt > 0 [s]. Throws std::runtime_error when there are more impacts in the step than the options allow.
+  void step(double dt);
+  std::span<const BodyState> states() const { return states_; }
+
+ private:
+  struct Acceleration {
+    Vec3 linear = Vec3::Zero();   // [m/s^2], in W
+    Vec3 angular = Vec3::Zero();  // [rad/s^2], in W
+  };
+  using Accelerations = std::vector<Acceleration>;
+
+  Accelerations free_accelerations() const;
+  std::vector<Inertness> inertness() const;
+  double tolerance(Pair pair) const;
+  std::vector<Contact> touching() const;
+
+  double rounding_speed(const Contact& contact) const;
+  double resting_speed(const Contact& contact) const;
+  bool rests(const Contact& contact) const;
+
+  void step_exact_time(double dt);
+  void step_from_start(double dt);
+  void kick(double dt);
+  void support(std::span<const Contact> contacts, std::span<BodyState> states) const;
+  Accelerations supported_accelerations(double duration) const;
+  void fly(double duration, bool accelerated);
+  std::optional<double> first_impact(const Accelerations& held, double horizon) const;
+  std::optional<double> pair_impact(Pair pair, const Accelerations& held, double horizon) const;
+  Motion motion(std::size_t body, const Accelerations& held, double horizon) const;
+  void move(const Accelerations& held, double horizon, double duration);
+  void resolve_impacts();
+
+  Scheme scheme_;
+  SimulatorOptions options_;
+  Vec3 gravity_;
+  std::vector<Body> bodies_;
+  std::optional<ContactMaterial> material_;
+  std::vector<Pair> pairs_;  // empty when bodies pass through each other
+  std::vector<BodyState> states_;
+  std::vector<Wrench> wrenches_;
+  double dt_ = 0;       // of the current step
+  Accelerations free_;  // of the current step, without contacts
+};
+
+// A whole run, initial state included: scenario.step_count(dt) steps, the force laws evaluated at the start of each
+// on the states of that moment. Throws as Simulator does.
+Trajectory simulate(const Scenario& scenario, const Scheme& scheme, double dt, const SimulatorOptions& options = {});
+
+}  // namespace plumbline

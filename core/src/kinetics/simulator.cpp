@@ -1,0 +1,317 @@
+#include "plumbline/core/kinetics/simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace plumbline {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// Diameter of the smallest sphere around it [m]; a half-space has no size.
+double size_of(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return 2 * sphere->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) return box->size.norm();
+  return 0;
+}
+
+void rotate(BodyState& state, const Vec3& phi) {
+  state.q_WB = rotation_by(phi) * state.q_WB;
+  state.q_WB.normalize();  // rounding would let the length wander
+}
+
+// Newton's rule: the faster they meet, the faster they part; contacts that rest do not rebound.
+double rebound_speed(double approach, double resting_speed, double restitution) {
+  return approach <= resting_speed ? 0 : restitution * approach;
+}
+
+}  // namespace
+
+FeatureSet simulator_features() { return FeatureSet::all().without({Feature::kSphereBox, Feature::kBoxBox}); }
+
+Simulator::Simulator(const Scenario& scenario, const Scheme& scheme, const SimulatorOptions& options)
+    : scheme_(scheme),
+      options_(options),
+      gravity_(scenario.gravity),
+      bodies_(scenario.bodies),
+      material_(scenario.contact),
+      wrenches_(scenario.bodies.size()) {
+  for (const Body& body : bodies_) {
+    if (!body.fixed && !(body.mass > 0)) {
+      throw std::invalid_argument("body '" + body.name + "' moves and needs a mass > 0; give it one or make it fixed");
+    }
+    states_.push_back(body.initial);
+  }
+  if (material_) pairs_ = contact_pairs(bodies_);
+}
+
+void Simulator::apply(std::span<const Wrench> wrenches) {
+  if (wrenches.size() != bodies_.size()) {
+    throw std::invalid_argument(std::to_string(wrenches.size()) + " wrenches for " + std::to_string(bodies_.size()) +
+                                " bodies: one per body is needed, zero for bodies without a force");
+  }
+  std::copy(wrenches.begin(), wrenches.end(), wrenches_.begin());
+}
+
+void Simulator::step(double dt) {
+  if (!(dt > 0)) throw std::invalid_argument("a step of " + std::to_string(dt) + " s: it must be > 0");
+  dt_ = dt;
+  free_ = free_accelerations();
+  std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
+  if (scheme_.impact == ImpactRule::kExactTime) {
+    step_exact_time(dt);
+  } else {
+    step_from_start(dt);
+  }
+}
+
+// m a = m g + f and I alpha = tau - w x I w.
+Simulator::Accelerations Simulator::free_accelerations() const {
+  Accelerations result(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].fixed) continue;
+    const Vec3& w = states_[i].w_WB;
+    const Mat3 inertia_W = inertia_in_world(bodies_[i], states_[i].q_WB);
+    result[i].linear = gravity_ + wrenches_[i].f_W / bodies_[i].mass;
+    result[i].angular =
+        inertness_of(bodies_[i], states_[i].q_WB).inverse_inertia_W * (wrenches_[i].tau_W - w.cross(inertia_W * w));
+  }
+  return result;
+}
+
+std::vector<Inertness> Simulator::inertness() const {
+  std::vector<Inertness> result;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) result.push_back(inertness_of(bodies_[i], states_[i].q_WB));
+  return result;
+}
+
+// Positions themselves are only known to rounding, which far from the origin is more than a part of the size.
+double Simulator::tolerance(Pair pair) const {
+  const double reach = states_[pair.a].p_WB.norm() + states_[pair.b].p_WB.norm();
+  const double size = size_of(bodies_[pair.a].shape) + size_of(bodies_[pair.b].shape);
+  return options_.contact_tolerance * size + 8 * kEpsilon * reach;
+}
+
+std::vector<Contact> Simulator::touching() const {
+  std::vector<Contact> contacts, all;
+  for (const Pair pair : pairs_) {
+    all.clear();
+    append_contacts(bodies_, states_, pair, all);
+    for (const Contact& c : all) {
+      if (c.gap <= tolerance(pair)) contacts.push_back(c);
+    }
+  }
+  return contacts;
+}
+
+// Approach speeds below this are what rounding, and the residual of apply_impulses, leave of zero. Four digits are
+// kept above kEpsilon for the several hundred operations that lead to a velocity.
+double Simulator::rounding_speed(const Contact& c) const {
+  const auto of = [&](std::size_t i) {
+    const BodyState& s = states_[i];
+    const double arm = (c.point_W - s.p_WB).norm();
+    return s.v_WB.norm() + (free_[i].linear * dt_).norm() + arm * (s.w_WB.norm() + (free_[i].angular * dt_).norm());
+  };
+  // A fixed half-space may have its origin far from the contact, but it has no velocity either.
+  return 1e4 * kEpsilon * (of(c.body_a) + of(c.body_b));
+}
+
+double Simulator::resting_speed(const Contact& c) const {
+  const auto of = [&](std::size_t i) -> Vec3 {
+    return free_[i].linear + free_[i].angular.cross(c.point_W - states_[i].p_WB);
+  };
+  return std::max(2 * std::abs(c.normal_W.dot(of(c.body_a) - of(c.body_b))) * dt_, rounding_speed(c));
+}
+
+bool Simulator::rests(const Contact& c) const { return std::abs(approach_speed(c, states_)) <= rounding_speed(c); }
+
+void Simulator::step_exact_time(double dt) {
+  switch (scheme_.integrator) {
+    case Integrator::kSemiImplicitEuler:
+      kick(dt);
+      fly(dt, false);
+      break;
+    case Integrator::kExplicitEuler:
+      fly(dt, false);
+      kick(dt);
+      break;
+    case Integrator::kVelocityVerlet:
+      fly(dt, true);
+      break;
+  }
+}
+
+// All of the forces' impulse at once; where bodies rest on each other the contact answers it at once.
+void Simulator::kick(double dt) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    states_[i].v_WB += free_[i].linear * dt;
+    states_[i].w_WB += free_[i].angular * dt;
+  }
+  std::vector<Contact> contacts = touching();
+  std::erase_if(contacts, [&](const Contact& c) { return !(approach_speed(c, states_) <= resting_speed(c)); });
+  support(contacts, states_);
+}
+
+void Simulator::support(std::span<const Contact> contacts, std::span<BodyState> states) const {
+  if (contacts.empty()) return;
+  std::vector<ImpactPoint> points;
+  for (const Contact& c : contacts) points.push_back({c, 0, material_->friction});
+  apply_impulses(points, inertness(), states);
+}
+
+// The held accelerations of the coming `duration`, those of resting contacts included: whatever keeps the bodies from
+// approaching until its end, spread evenly.
+Simulator::Accelerations Simulator::supported_accelerations(double duration) const {
+  std::vector<Contact> contacts = touching();
+  std::erase_if(contacts, [&](const Contact& c) { return !rests(c); });
+  if (contacts.empty() || !(duration > 0)) return free_;
+  std::vector<BodyState> end = states_;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    end[i].v_WB += free_[i].linear * duration;
+    end[i].w_WB += free_[i].angular * duration;
+  }
+  support(contacts, end);
+  Accelerations result(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    result[i].linear = (end[i].v_WB - states_[i].v_WB) / duration;
+    result[i].angular = (end[i].w_WB - states_[i].w_WB) / duration;
+  }
+  return result;
+}
+
+// From impact to impact to the end of the step.
+void Simulator::fly(double duration, bool accelerated) {
+  for (int events = 0;; ++events) {
+    const Accelerations held = accelerated ? supported_accelerations(duration) : Accelerations(bodies_.size());
+    const std::optional<double> impact = first_impact(held, duration);
+    move(held, duration, impact.value_or(duration));
+    if (!impact) return;
+    if (events == options_.max_events_per_step) {
+      throw std::runtime_error("more than " + std::to_string(options_.max_events_per_step) +
+                               " impacts in one step of " + shortest(dt_) +
+                               " s: bodies are caught between others; take a smaller dt or allow more events");
+    }
+    duration -= *impact;
+    resolve_impacts();
+  }
+}
+
+std::optional<double> Simulator::first_impact(const Accelerations& held, double horizon) const {
+  std::optional<double> first;
+  for (const Pair pair : pairs_) {
+    const std::optional<double> t = pair_impact(pair, held, horizon);
+    if (t && *t <= horizon && (!first || *t < *first)) first = t;
+  }
+  return first;
+}
+
+// Points that touch without approaching are left out: rounding would make them meet again and again at once.
+std::optional<double> Simulator::pair_impact(Pair pair, const Accelerations& held, double horizon) const {
+  const Motion a = motion(pair.a, held, horizon), b = motion(pair.b, held, horizon);
+  const Shape &shape_a = bodies_[pair.a].shape, &shape_b = bodies_[pair.b].shape;
+  std::vector<Contact> contacts;
+  append_contacts(bodies_, states_, pair, contacts);
+  const auto left_alone = [&](const Contact& c) { return c.gap <= tolerance(pair) && rests(c); };
+
+  if (const auto* sphere_b = std::get_if<Sphere>(&shape_b)) {
+    if (left_alone(contacts.front())) return std::nullopt;
+    return sphere_meets_sphere(a, std::get<Sphere>(shape_a).radius, b, sphere_b->radius, horizon);
+  }
+  const Vec3& normal_W = std::get<HalfSpace>(shape_b).normal;
+  const Plane plane{normal_W, normal_W.dot(b.start.p_WB)};
+  if (const auto* sphere_a = std::get_if<Sphere>(&shape_a)) {
+    if (left_alone(contacts.front())) return std::nullopt;
+    return sphere_meets_plane(a, sphere_a->radius, plane);
+  }
+  const Vec3& size = std::get<Box>(shape_a).size;
+  std::optional<double> first;
+  for (int k = 0; k < 8; ++k) {
+    if (left_alone(contacts[static_cast<std::size_t>(k)])) continue;
+    const auto t = corner_meets_plane(a, box_corner(size, k), plane, kImpactTolerance * size.norm(), horizon);
+    if (t && *t <= horizon && (!first || *t < *first)) first = t;
+  }
+  return first;
+}
+
+// The attitude turns with the mean angular velocity of the time ahead, as exp(w dt) q asks for one axis.
+Motion Simulator::motion(std::size_t body, const Accelerations& held, double horizon) const {
+  Motion result{states_[body], held[body].linear};
+  result.start.w_WB += 0.5 * horizon * held[body].angular;
+  return result;
+}
+
+void Simulator::move(const Accelerations& held, double horizon, double duration) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].fixed) continue;
+    BodyState& s = states_[i];
+    s.p_WB += s.v_WB * duration + 0.5 * duration * duration * held[i].linear;
+    rotate(s, motion(i, held, horizon).start.w_WB * duration);
+    s.v_WB += held[i].linear * duration;
+    s.w_WB += held[i].angular * duration;
+  }
+}
+
+// All points that touch at this instant get their impulses together.
+void Simulator::resolve_impacts() {
+  std::vector<ImpactPoint> points;
+  for (const Contact& c : touching()) {
+    points.push_back(
+        {c, rebound_speed(approach_speed(c, states_), resting_speed(c), material_->restitution), material_->friction});
+  }
+  apply_impulses(points, inertness(), states_);
+}
+
+void Simulator::step_from_start(double dt) {
+  const std::vector<BodyState> before = states_;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    states_[i].v_WB += free_[i].linear * dt;
+    states_[i].w_WB += free_[i].angular * dt;
+  }
+  const std::span<const BodyState> counted = scheme_.impact == ImpactRule::kStepStart ? states_ : before;
+  std::vector<ImpactPoint> points;
+  for (const Contact& c : touching()) {
+    points.push_back(
+        {c, rebound_speed(approach_speed(c, counted), resting_speed(c), material_->restitution), material_->friction});
+  }
+  apply_impulses(points, inertness(), states_);
+
+  // How much of the new velocity the positions see.
+  const double share = scheme_.integrator == Integrator::kSemiImplicitEuler ? 1.0
+                       : scheme_.integrator == Integrator::kExplicitEuler   ? 0.0
+                                                                            : 0.5;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].fixed) continue;
+    states_[i].p_WB += (before[i].v_WB + share * (states_[i].v_WB - before[i].v_WB)) * dt;
+    rotate(states_[i], (before[i].w_WB + share * (states_[i].w_WB - before[i].w_WB)) * dt);
+  }
+}
+
+Trajectory simulate(const Scenario& scenario, const Scheme& scheme, double dt, const SimulatorOptions& options) {
+  Simulator simulator(scenario, scheme, options);
+  const std::size_t steps = scenario.step_count(dt);
+  Trajectory trajectory(dt, scenario.bodies.size());
+  trajectory.reserve(steps + 1);
+  const auto record = [&] {
+    const auto states = simulator.states();
+    std::copy(states.begin(), states.end(), trajectory.append().begin());
+  };
+  record();
+  std::vector<Wrench> wrenches(scenario.bodies.size());
+  for (std::size_t k = 0; k < steps; ++k) {
+    std::fill(wrenches.begin(), wrenches.end(), Wrench{});
+    for (const ForceLaw& law : scenario.forces) {
+      const Wrench wrench = law.evaluate(trajectory.time(k), simulator.states()[law.body]);
+      wrenches[law.body].f_W += wrench.f_W;
+      wrenches[law.body].tau_W += wrench.tau_W;
+    }
+    simulator.apply(wrenches);
+    simulator.step(dt);
+    record();
+  }
+  return trajectory;
+}
+
+}  // namespace plumbline
