@@ -140,7 +140,9 @@ std::vector<Setting> setting_table() {
       {"velocity_iterations", 8.0, 8.0, "", "sweeps over the contact velocities in a step"},
       {"position_iterations", 3.0, 3.0, "", "sweeps over the contact positions in a step"},
       {"warm_starting", true, true, "", "starts from the impulses of the step before"},
-      {"continuous", true, true, "", "stops moving bodies at the time of impact with fixed ones"},
+      {"continuous", true, false, "",
+       "stops moving bodies at the time of impact with fixed ones; a box is stopped b2_linearSlop too high and stays "
+       "there"},
       {"restitution_threshold", 1.0, 0.0, "m/s", "slower impacts have e = 0; the scenario states no such threshold"},
       {"linear_damping", 0.0, 0.0, "1/s", "decay rate of the velocity"},
       {"angular_damping", 0.0, 0.0, "1/s", "decay rate of the angular velocity"},

@@ -186,7 +186,8 @@ std::vector<Setting> setting_table() {
       {"restitution_threshold", 0.2, 0.0, "m/s", "slower impacts have e = 0; the scenario states no such threshold"},
       {"split_impulse", true, true, "", "corrects penetration with velocities that are forgotten after the step"},
       {"split_impulse_penetration_threshold", -0.04, 0.0, "m",
-       "shallower penetration is corrected by real velocity, up to erp2 of the approach speed on top of e; 0: never"},
+       "shallower penetration is corrected by real velocity: an impact seen at depth d rebounds with e + erp2 d/(v dt) "
+       "instead of e; 0: never"},
       {"erp2", 0.2, 0.2, "1", "share of the penetration that a step corrects"},
       {"linear_slop", 0.0, 0.0, "m", "penetration that is left alone"},
       {"contact_processing_threshold", kNever, 0.0, "m",
