@@ -106,7 +106,8 @@ void print_changes(const std::vector<RunChange>& changes, const ConsoleStyle& st
 
   std::string summary;
   for (const KindRow& kind : kKinds) {
-    const auto count = std::count_if(changes.begin(), changes.end(), [&](const RunChange& c) { return c.kind == kind.kind; });
+    const auto count =
+        std::count_if(changes.begin(), changes.end(), [&](const RunChange& c) { return c.kind == kind.kind; });
     if (count == 0) continue;
     summary += (summary.empty() ? "" : ", ") + painted(kind.kind, paint, fmt::format("{} {}", count, kind.name));
   }

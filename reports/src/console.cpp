@@ -18,9 +18,7 @@ using namespace reports;
 
 constexpr std::size_t kFailingRowsShown = 20;
 
-void heading(const char* text, const ConsoleStyle& style, std::ostream& out) {
-  out << Paint(style).bold(text) << '\n';
-}
+void heading(const char* text, const ConsoleStyle& style, std::ostream& out) { out << Paint(style).bold(text) << '\n'; }
 
 // The failing runs of one engine, profile and case that failed alike: one entry with all of their dt.
 struct FailingRow {
@@ -66,7 +64,8 @@ void print_failing(const std::vector<CaseSection>& sections, const ConsoleStyle&
     const RunResult& run = *failing[i].worst;
     std::string steps;
     for (const double dt : failing[i].steps) steps += (steps.empty() ? "" : ", ") + step_label(dt);
-    const std::string where = fmt::format("{} {} {} dt {}", run.case_name, run.engine, profile_name(run.profile), steps);
+    const std::string where =
+        fmt::format("{} {} {} dt {}", run.case_name, run.engine, profile_name(run.profile), steps);
     std::string text = safe_line(fmt::format("{}: {}", where, why(run)), style.unicode);
     const auto width = static_cast<std::size_t>(style.width);
     if (!verbose) text = shorten(text, 2 * width - 40);  // two lines at most
@@ -104,8 +103,9 @@ void print_divergence(const std::vector<CaseSection>& sections, const ConsoleSty
 }
 
 void print_legend(const ConsoleStyle& style, std::ostream& out) {
-  std::string text = "a cell: mark, position.max [m] or the value of the first gate that does not hold, footnote. order:"
-                     " of position.max in dt. Marks:";
+  std::string text =
+      "a cell: mark, position.max [m] or the value of the first gate that does not hold, footnote. order:"
+      " of position.max in dt. Marks:";
   for (const VerdictRow& row : verdict_table()) text += fmt::format(" {} {}", row.mark, row.name);
   out << Paint(style).dim(wrapped("", text, static_cast<std::size_t>(style.width))) << '\n';
 }

@@ -60,8 +60,11 @@ std::string tail_text(const CaseRow& row) {
 }
 
 Line line_of(const CaseRow& row, Footnotes& footnotes, bool unicode) {
-  Line line{safe_line(row.engine, unicode), std::string(profile_name(row.profile)), order_text(row),
-            safe_line(tail_text(row), unicode), {}};
+  Line line{safe_line(row.engine, unicode),
+            std::string(profile_name(row.profile)),
+            order_text(row),
+            safe_line(tail_text(row), unicode),
+            {}};
   for (const RunResult* run : row.runs) {
     if (run == nullptr) {
       line.cells.push_back({Verdict::kPass, "not run", "", false});

@@ -61,9 +61,7 @@ T plain(const Json& object, const char* key, bool (Json::*is_type)() const noexc
 std::string text(const Json& object, const char* key) {
   return plain<std::string>(object, key, &Json::is_string, "a text");
 }
-bool flag(const Json& object, const char* key) {
-  return plain<bool>(object, key, &Json::is_boolean, "true or false");
-}
+bool flag(const Json& object, const char* key) { return plain<bool>(object, key, &Json::is_boolean, "true or false"); }
 int integer(const Json& object, const char* key) {
   return plain<int>(object, key, &Json::is_number_integer, "a whole number");
 }
@@ -144,22 +142,32 @@ EngineInfo to_engine(const Json& j) {
   e.velocity_offset = number(j, "velocity_offset");
   for (const Feature f : list(j, "features", to_feature)) e.features.insert(f);
   e.settings = list(j, "settings", [](const Json& s) {
-    return Setting{text(s, "name"), to_setting(member(s, "default")), to_setting(member(s, "matched")),
-                   text(s, "unit"), text(s, "meaning")};
+    return Setting{text(s, "name"), to_setting(member(s, "default")), to_setting(member(s, "matched")), text(s, "unit"),
+                   text(s, "meaning")};
   });
   return e;
 }
 
 ScenarioSummary to_scenario(const Json& j) {
-  return {text(j, "id"),       text(j, "about"),           text(j, "source"),
-          text(j, "file"),     text(j, "reference_kind"),  text(j, "citation"),
-          list(j, "cases", to_text), list(j, "steps", to_number)};
+  return {text(j, "id"),
+          text(j, "about"),
+          text(j, "source"),
+          text(j, "file"),
+          text(j, "reference_kind"),
+          text(j, "citation"),
+          list(j, "cases", to_text),
+          list(j, "steps", to_number)};
 }
 
 GateResult to_gate(const Json& j) {
   const Json& place = member(j, "place");
-  return {text(j, "metric"), number(j, "value"), number(j, "limit"), flag(j, "passed"), text(j, "reason"),
-          text(j, "deviation"), at("place", [&] {
+  return {text(j, "metric"),
+          number(j, "value"),
+          number(j, "limit"),
+          flag(j, "passed"),
+          text(j, "reason"),
+          text(j, "deviation"),
+          at("place", [&] {
             return SourcePlace{text(place, "file"), integer(place, "line"), integer(place, "column")};
           })};
 }
@@ -169,9 +177,7 @@ CurvePoint to_point(const Json& j) {
   return {to_number(j[0]), to_number(j[1])};
 }
 
-Explanation to_explanation(const Json& j) {
-  return {text(j, "scheme"), number(j, "distance"), number(j, "share")};
-}
+Explanation to_explanation(const Json& j) { return {text(j, "scheme"), number(j, "distance"), number(j, "share")}; }
 
 RunResult to_run(const Json& j) {
   RunResult r;
@@ -202,8 +208,9 @@ RunResult to_run(const Json& j) {
 Convergence to_convergence(const Json& j) {
   const int points = integer(j, "points");
   if (points < 0) throw std::runtime_error("/points must be >= 0");
-  return {text(j, "case"), text(j, "engine"), profile(j), text(j, "metric"), number(j, "order"),
-          static_cast<std::size_t>(points), text(j, "note")};
+  return {text(j, "case"),   text(j, "engine"),  profile(j),
+          text(j, "metric"), number(j, "order"), static_cast<std::size_t>(points),
+          text(j, "note")};
 }
 
 Divergence to_divergence(const Json& j) {
@@ -218,7 +225,8 @@ Divergence to_divergence(const Json& j) {
 Report to_report(const Json& j) {
   const auto schema = j.is_object() ? j.find("schema") : j.end();
   if (schema == j.end() || !schema->is_string()) {
-    throw std::runtime_error("is no results file: it has no \"schema\". Pass the results.json of `plumbline run -o DIR`");
+    throw std::runtime_error(
+        "is no results file: it has no \"schema\". Pass the results.json of `plumbline run -o DIR`");
   }
   if (*schema != kResultsSchema) {
     throw std::runtime_error("has the schema \"" + schema->get<std::string>() + "\", this program reads \"" +
@@ -234,8 +242,9 @@ Report to_report(const Json& j) {
   report.wall_seconds = number(j, "wall_seconds");
   report.interrupted = flag(j, "interrupted");
   report.engines = list(j, "engines", to_engine);
-  report.missing_engines =
-      list(j, "missing_engines", [](const Json& m) { return MissingEngine{text(m, "name"), text(m, "reason")}; });
+  report.missing_engines = list(j, "missing_engines", [](const Json& m) {
+    return MissingEngine{text(m, "name"), text(m, "reason")};
+  });
   report.scenarios = list(j, "scenarios", to_scenario);
   report.runs = list(j, "runs", to_run);
   report.convergence = list(j, "convergence", to_convergence);
@@ -248,7 +257,8 @@ Report to_report(const Json& j) {
 Report read_results(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file || std::filesystem::is_directory(path)) {
-    const std::string cause = std::filesystem::is_directory(path) ? "is a folder" : std::generic_category().message(errno);
+    const std::string cause =
+        std::filesystem::is_directory(path) ? "is a folder" : std::generic_category().message(errno);
     throw std::runtime_error(path.string() + ": cannot be read: " + cause +
                              ". Pass the results.json of `plumbline run -o DIR`");
   }

@@ -114,9 +114,9 @@ Json run_json(const RunResult& r) {
 }
 
 Json convergence_json(const Convergence& c) {
-  return {{"case", c.case_name},           {"engine", c.engine}, {"profile", profile_name(c.profile)},
-          {"metric", c.metric},            {"order", number(c.order)},
-          {"points", c.points},            {"note", c.note}};
+  return {{"case", c.case_name}, {"engine", c.engine},       {"profile", profile_name(c.profile)},
+          {"metric", c.metric},  {"order", number(c.order)}, {"points", c.points},
+          {"note", c.note}};
 }
 
 Json divergence_json(const Divergence& d) {
@@ -165,8 +165,10 @@ std::string results_json(const Report& report) {
   document.member("wall_seconds", number(report.wall_seconds));
   document.member("interrupted", report.interrupted);
   document.members("engines", report.engines, engine_json);
-  document.members("missing_engines", report.missing_engines,
-                   +[](const MissingEngine& m) -> Json { return {{"name", m.name}, {"reason", m.reason}}; });
+  document.members(
+      "missing_engines", report.missing_engines, +[](const MissingEngine& m) -> Json {
+        return {{"name", m.name}, {"reason", m.reason}};
+      });
   document.members("scenarios", report.scenarios, scenario_json);
   document.members("runs", report.runs, run_json);
   document.members("convergence", report.convergence, convergence_json);

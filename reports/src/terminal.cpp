@@ -121,16 +121,22 @@ std::string Paint::wrap(std::string_view code, std::string_view text) const {
 
 std::string Paint::verdict(Verdict verdict, std::string_view text) const {
   switch (verdict) {
-    case Verdict::kPass: return wrap("32", text);
-    case Verdict::kExpectedFail: return wrap("33", text);
-    case Verdict::kUnexpectedPass: return wrap("35", text);
-    case Verdict::kUnsupported: return wrap("2", text);
+    case Verdict::kPass:
+      return wrap("32", text);
+    case Verdict::kExpectedFail:
+      return wrap("33", text);
+    case Verdict::kUnexpectedPass:
+      return wrap("35", text);
+    case Verdict::kUnsupported:
+      return wrap("2", text);
     case Verdict::kFail:
     case Verdict::kDiverged:
-    case Verdict::kNondeterministic: return wrap("31", text);
+    case Verdict::kNondeterministic:
+      return wrap("31", text);
     case Verdict::kCrashed:
     case Verdict::kTimedOut:
-    case Verdict::kError: return wrap("1;31", text);
+    case Verdict::kError:
+      return wrap("1;31", text);
   }
   return std::string(text);
 }

@@ -23,7 +23,7 @@ struct RunChange {
   double dt = 0;  // [s]
   Kind kind = Kind::kSame;
   Verdict old_verdict = Verdict::kError, new_verdict = Verdict::kError;
-  std::string metric;  // the metric that changed most; empty when only the verdict is known
+  std::string metric;                   // the metric that changed most; empty when only the verdict is known
   double old_value = 0, new_value = 0;  // in the metric's unit; NaN when that run has no such number
 };
 

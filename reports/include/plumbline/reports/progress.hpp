@@ -45,9 +45,9 @@ class Progress {
   std::size_t width_;
   std::function<double()> seconds_;
   std::size_t total_ = 0;
-  double start_ = 0;     // [s]
-  double last_ = 0;      // when the last line was written [s]
-  bool drawn_ = false;   // something stands on the terminal's line
+  double start_ = 0;    // [s]
+  double last_ = 0;     // when the last line was written [s]
+  bool drawn_ = false;  // something stands on the terminal's line
   bool active_ = false;
 };
 
