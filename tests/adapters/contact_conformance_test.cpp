@@ -82,42 +82,79 @@ TEST_P(Contact, BoxCollidesInTheAttitudeItIsStatedIn) {
   EXPECT_NEAR(s[1].p_WB.z(), 1, 0.1);
 }
 
-TEST_P(ContactLaw, RestitutionOfThePairActsBetweenBalls) {
-  for (double e : {0.0, 0.5, 1.0}) {
-    Scenario scenario;
-    scenario.contact = ContactMaterial{e, 0};
-    scenario.bodies = {ball("a", 0.1, 2, Vec3(0, 0, 0), Vec3(3, 0, 0)),
-                       ball("b", 0.2, 5, Vec3(0.72, 0, 0), Vec3(-1, 0, 0))};
-    if (const std::string lack = missing(scenario); !lack.empty()) GTEST_SKIP() << "lacks " << lack;
-    const auto s = run(*build(scenario), scenario, kStep, 32);
-    const double approach = 4;
-    EXPECT_NEAR(s[1].v_WB.x() - s[0].v_WB.x(), e * approach, kSoftness * approach) << "e = " << e;
-    // Momentum: 2 * 3 - 5 * 1.
-    EXPECT_NEAR(2 * s[0].v_WB.x() + 5 * s[1].v_WB.x(), 1, 64 * roundoff() * 11) << "e = " << e;
+// Ties the sign of rotation to the directions of the plane: a mirrored one would agree with itself everywhere else.
+TEST_P(Contact, BallThatSpinsAboutYRollsTowardsX) {
+  Scenario scenario;
+  scenario.gravity = Vec3(0, 0, -9.81);
+  scenario.contact = ContactMaterial{0, 0.5};
+  scenario.bodies = {half_space(Vec3::UnitZ()), ball("ball", 0.2, 1, Vec3(0, 0, 0.201))};
+  scenario.bodies[1].initial.w_WB = Vec3(0, 10, 0);
+  if (const std::string lack = missing(scenario); !lack.empty()) GTEST_SKIP() << "lacks " << lack;
+  const BodyState s = run(*build(scenario), scenario, kStep, 32)[1];
+  EXPECT_GT(s.v_WB.x(), 0.01);
+  EXPECT_LT(s.w_WB.y(), 10);
+  EXPECT_GT(s.w_WB.y(), 0);
+}
+
+TEST_P(ContactLaw, RestitutionOfThePairActsBetweenBallsAtEverySpeed) {
+  // Engines like to take slow impacts for e = 0; the scenario states no such speed.
+  for (double pace : {1.0, 0.01}) {
+    for (double e : {0.0, 0.5, 1.0}) {
+      Scenario scenario;
+      scenario.contact = ContactMaterial{e, 0};
+      scenario.bodies = {ball("a", 0.1, 2, Vec3(0, 0, 0), Vec3(3 * pace, 0, 0)),
+                         ball("b", 0.2, 5, Vec3(0.3 + 0.42 * pace, 0, 0), Vec3(-pace, 0, 0))};
+      if (const std::string lack = missing(scenario); !lack.empty()) GTEST_SKIP() << "lacks " << lack;
+      const auto s = run(*build(scenario), scenario, kStep, 32);
+      const double approach = 4 * pace;
+      EXPECT_NEAR(s[1].v_WB.x() - s[0].v_WB.x(), e * approach, kSoftness * approach) << "e = " << e << ", " << approach;
+      // Momentum: 2 * 3 - 5 * 1; each of 32 steps may round both velocities.
+      EXPECT_NEAR(2 * s[0].v_WB.x() + 5 * s[1].v_WB.x(), pace, 64 * roundoff() * 11 * pace) << "e = " << e;
+    }
   }
 }
 
+// `n` is the outward normal; the ball flies straight at the surface and back.
+void expect_rebound(const Engine& engine, const Settings& settings, const Vec3& n, double e, double dt) {
+  const Vec3 foot(1, 0, -2);
+  const double radius = 0.25, speed = 2, gap = 0.53;
+  Scenario scenario;
+  scenario.contact = ContactMaterial{e, 0};
+  // Off to the side, since the half-space has no end along its surface.
+  const Vec3 start = foot + 0.5 * Vec3(-n.z(), 0, n.x()) + (radius + gap) * n;
+  scenario.bodies = {half_space(n, foot), ball("ball", radius, 3, start, -speed * n)};
+  scenario.bodies[0].initial.q_WB = quarter_turn_about_y();
+  const double duration = 0.625;
+  const auto world = engine.build(scenario, settings);
+  const BodyState s = run(*world, scenario, dt, static_cast<int>(duration / dt))[1];
+  EXPECT_LE((s.v_WB - e * speed * n).norm(), kSoftness * speed) << n.transpose() << ", e = " << e << ", dt = " << dt;
+  // A stepping engine sees the impact up to one step late, and may answer one step after that.
+  const double distance = (s.p_WB - foot).dot(n) - radius;
+  EXPECT_NEAR(distance, e * (speed * duration - gap), 2 * speed * dt * (1 + e)) << n.transpose() << ", dt = " << dt;
+}
+
 TEST_P(ContactLaw, HalfSpaceStandsWhereItIsStatedWhateverItsAttitude) {
-  for (double e : {0.5, 0.9}) {
-    for (const Vec3& n : {Vec3(0, 0, 1), Vec3(0.6, 0, 0.8), Vec3(-1, 0, 0)}) {
-      const Vec3 foot(1, 0, -2);
-      const double radius = 0.25, speed = 2, gap = 0.53;
-      Scenario scenario;
-      scenario.contact = ContactMaterial{e, 0};
-      // Off to the side by half a metre, so that the position of the half-space along its surface does not matter.
-      const Vec3 along(-n.z(), 0, n.x());
-      scenario.bodies = {half_space(n, foot),
-                         ball("ball", radius, 3, foot + 0.5 * along + (radius + gap) * n, -speed * n)};
-      scenario.bodies[0].initial.q_WB = quarter_turn_about_y();
-      if (const std::string lack = missing(scenario); !lack.empty()) GTEST_SKIP() << "lacks " << lack;
-      const int steps = 40;
-      const BodyState s = run(*build(scenario), scenario, kStep, steps)[1];
-      EXPECT_LE((s.v_WB - e * speed * n).norm(), kSoftness * speed) << n.transpose() << " e = " << e;
-      const double rise = e * (speed * kStep * steps - gap);
-      // A stepping engine sees the impact up to one step late, and may handle it one step after that.
-      EXPECT_NEAR((s.p_WB - foot).dot(n) - radius, rise, 2 * speed * kStep * (1 + e)) << n.transpose();
+  if (!has(Feature::kSphereHalfSpace) || !has(Feature::kRestitution)) GTEST_SKIP() << "no rebound from a half-space";
+  for (const Vec3& n : {Vec3(0, 0, 1), Vec3(0.6, 0, 0.8), Vec3(-1, 0, 0)}) {
+    // The small step: a contact that acts before the surfaces meet takes the speed away before e can return it.
+    for (double dt : {kStep, kStep / 16}) {
+      for (double e : {0.5, 0.9}) expect_rebound(engine(), settings(), n, e, dt);
     }
   }
+}
+
+TEST_P(ContactLaw, SlowBodiesStayAwake) {
+  if (!has(Feature::kForce)) GTEST_SKIP() << "no forces";
+  Scenario scenario;
+  const double creep = 1e-3;
+  scenario.bodies = {ball("ball", 0.1, 1, Vec3::Zero(), Vec3(creep, 0, 0))};
+  const auto world = build(scenario);
+  const double duration = 4;  // twice as long as the most patient engine waits
+  const BodyState s = run(*world, scenario, kStep, static_cast<int>(duration / kStep))[0];
+  EXPECT_NEAR(s.p_WB.x(), creep * duration, 2 * duration / kStep * roundoff() * creep * duration);
+  const Wrench wrench{Vec3(0, 0, 1), Vec3::Zero()};
+  world->apply({&wrench, 1});
+  EXPECT_GT(run(*world, scenario, kStep, 1)[0].v_WB.z(), 0) << "a force on a body at rest was lost";
 }
 
 TEST_P(ContactLaw, FixedBodiesStayAndSendOthersBack) {
@@ -148,19 +185,26 @@ TEST_P(ContactLaw, SlidingIsBrakedByTheFrictionOfThePair) {
   }
 }
 
-TEST_P(ContactLaw, BoxLandsAndRestsAtHalfItsHeight) {
+TEST_P(ContactLaw, BoxLandsFlatAndRestsAtHalfItsHeight) {
   Scenario scenario;
   scenario.gravity = Vec3(0, 0, -9.81);
   scenario.contact = ContactMaterial{0, 0};
   scenario.bodies = {half_space(Vec3::UnitZ()), box("crate", Vec3(1, 1, 1), 1000, Vec3(0, 0, 2.5))};
   if (const std::string lack = missing(scenario); !lack.empty()) GTEST_SKIP() << "lacks " << lack;
   const auto world = build(scenario);
-  const BodyState s = run(*world, scenario, kStep, 256)[1];
+  BodyState s;
+  double tilt = 0;
+  for (int k = 0; k < 256; ++k) {
+    s = run(*world, scenario, kStep, 1)[1];
+    tilt = std::max(tilt, geodesic_angle(s.q_WB, Quat::Identity()));
+  }
+  // Nothing in the problem turns the box: it lands on a whole face. An iterative solver leaves the corners' impulses
+  // unequal by a small share; one that knows only some of the corners turns it by v/size times a step or more.
+  EXPECT_LE(tilt, 0.1 * std::sqrt(2 * 9.81 * 2) * kStep / 1);
   // The deepest and the thickest that engines leave alone for good is a centimetre.
   EXPECT_NEAR(s.p_WB.z(), 0.5, 0.01);
   // At rest: slower than gravity makes it within one step.
   EXPECT_LE(s.v_WB.norm(), 9.81 * kStep);
-  EXPECT_LE(geodesic_angle(s.q_WB, Quat::Identity()), 0.01);
 }
 
 }  // namespace
