@@ -1,0 +1,125 @@
+#include "plumbline/core/feature.hpp"
+
+#include <gtest/gtest.h>
+
+#include "kinetic_scenes.hpp"
+#include "plumbline/core/kinetics/simulator.hpp"
+
+namespace plumbline {
+namespace {
+
+using namespace scenes;
+
+Body crate() { return solid("crate", Box{Vec3(1, 1, 1)}, 1, Vec3(0, 0, 2), Vec3::Zero()); }
+
+TEST(Needs, NothingButGravityForABodyThatFallsInThePlane) {
+  const Scenario s = free_flight(ball("ball", 1, 1, Vec3::Zero(), Vec3(1, 0, 2)), Vec3(0, 0, -kG), 1);
+  EXPECT_TRUE(needs(s).empty()) << needs(s).describe();
+}
+
+TEST(Needs, FollowFromForces) {
+  Scenario s = free_flight(ball("ball", 1, 1, Vec3::Zero(), Vec3::Zero()), Vec3::Zero(), 1);
+  s.forces.push_back({0, [](double, const BodyState&) { return Wrench{}; }, false, false, ""});
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kForce}));
+  s.forces[0].has_torque = true;
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kForce, Feature::kTorque}));
+}
+
+TEST(Needs, FollowFromShapesAndContactRules) {
+  Scenario s = on_ground(crate(), 0, 0, 1);
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kBoxHalfSpace}));
+  s.contact->restitution = 0.5;
+  s.contact->friction = 0.1;
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kBoxHalfSpace, Feature::kRestitution, Feature::kFriction}));
+  s.contact = ContactMaterial{};
+  s.bodies.push_back(ball("ball", 1, 1, Vec3(3, 0, 3), Vec3::Zero()));
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kBoxHalfSpace, Feature::kSphereHalfSpace, Feature::kSphereBox}));
+  s.bodies[1] = ball("other", 1, 1, Vec3(0, 0, 3), Vec3::Zero());
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kSphereSphere, Feature::kSphereHalfSpace}));
+  s.contact.reset();
+  EXPECT_TRUE(needs(s).empty());
+}
+
+TEST(Needs, DoNotAskForContactOfBodiesThatNeverMove) {
+  Scenario s = on_ground(crate(), 0, 0, 1);
+  s.bodies[1].fixed = true;
+  EXPECT_TRUE(needs(s).empty()) << needs(s).describe();
+}
+
+TEST(FeatureSets, SubtractAndDescribe) {
+  const FeatureSet need({Feature::kFriction, Feature::kBoxBox}), have({Feature::kFriction});
+  EXPECT_EQ(need.without(have).describe(), "contact of a box with a box");
+  EXPECT_EQ(need.describe(), "contact of a box with a box, friction");
+  EXPECT_TRUE(have.without(need).empty());
+  EXPECT_EQ(FeatureSet().describe(), "");
+  for (std::size_t k = 0; k < kFeatureCount; ++k) {
+    EXPECT_TRUE(FeatureSet::all().contains(static_cast<Feature>(k)));
+    EXPECT_FALSE(feature_name(static_cast<Feature>(k)).empty());
+  }
+}
+
+TEST(FeatureSets, OfTheSimulatorAreWhatItDoesNotRefuse) {
+  Scenario s = on_ground(crate(), 0, 0, 1);
+  EXPECT_TRUE(needs(s).without(simulator_features()).empty());
+  EXPECT_NO_THROW(Simulator(s, Scheme{}));
+  s.bodies.push_back(crate());
+  EXPECT_EQ(needs(s).without(simulator_features()), FeatureSet({Feature::kBoxBox}));
+  EXPECT_THROW(Simulator(s, Scheme{}), std::invalid_argument);
+  s.bodies.back() = ball("ball", 1, 1, Vec3(0, 0, 9), Vec3::Zero());
+  EXPECT_EQ(needs(s).without(simulator_features()), FeatureSet({Feature::kSphereBox}));
+  EXPECT_THROW(Simulator(s, Scheme{}), std::invalid_argument);
+}
+
+TEST(PlanarView, IsPlanarWhenNothingLeavesThePlane) {
+  const Scenario s = on_ground(crate(), 0, 0, 1);
+  EXPECT_EQ(planar_view(s).planarity, Planarity::kPlanar);
+  EXPECT_EQ(planar_view(s).reason, "");
+}
+
+TEST(PlanarView, IsAProjectionWhenMotionAcrossIsUncoupled) {
+  Scenario s = free_flight(crate(), Vec3(0, 0, -kG), 1);
+  s.bodies[0].initial.v_WB.y() = 3;
+  EXPECT_EQ(planar_view(s).planarity, Planarity::kProjection);
+  s.bodies[0].initial.v_WB.y() = 0;
+  s.gravity.y() = 1;
+  EXPECT_EQ(planar_view(s).planarity, Planarity::kProjection);
+  s.gravity.y() = 0;
+  s.forces.push_back({0,
+                      [](double, const BodyState&) {
+                        return Wrench{Vec3(0, 1, 0), Vec3::Zero()};
+                      },
+                      false, false, ""});
+  EXPECT_EQ(planar_view(s).planarity, Planarity::kProjection);
+  EXPECT_FALSE(needs(s).contains(Feature::kSpatial));
+}
+
+TEST(PlanarView, IsSpatialWithTheReason) {
+  const auto reason = [](const Scenario& s) {
+    const PlanarView view = planar_view(s);
+    EXPECT_EQ(view.planarity, Planarity::kSpatial);
+    EXPECT_TRUE(needs(s).contains(Feature::kSpatial));
+    return view.reason;
+  };
+  Scenario spins = free_flight(crate(), Vec3::Zero(), 1);
+  spins.bodies[0].initial.w_WB.z() = 1;
+  EXPECT_NE(reason(spins).find("crate turns about an axis other than y"), std::string::npos);
+
+  Scenario coupled = free_flight(crate(), Vec3::Zero(), 1);
+  coupled.forces.push_back({0, [](double, const BodyState&) { return Wrench{}; }, true, false, ""});
+  EXPECT_NE(reason(coupled).find("couples"), std::string::npos);
+
+  Scenario inclined = on_ground(crate(), 0, 0, 1);
+  inclined.bodies[0].shape = HalfSpace{Vec3(0, 0.6, 0.8)};
+  EXPECT_NE(reason(inclined).find("ground is inclined out of the plane"), std::string::npos);
+
+  Scenario across = on_ground(crate(), 0, 0, 1);
+  across.bodies[1].initial.v_WB.y() = 1;
+  EXPECT_NE(reason(across).find("move along y"), std::string::npos);
+
+  Scenario beside = on_ground(ball("one", 1, 1, Vec3(0, 0, 2), Vec3::Zero()), 0, 0, 1);
+  beside.bodies.push_back(ball("two", 1, 1, Vec3(1, 1, 2), Vec3::Zero()));
+  EXPECT_NE(reason(beside).find("two touches others outside"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumbline
