@@ -107,7 +107,7 @@ const Node& as_table(const Node& node) {
 }
 
 const std::string& as_text(const Node& node) {
-  if (node.kind != NodeKind::kText) wrong_type(node, "a string");
+  if (node.kind != NodeKind::kText) wrong_type(node, "text in quotes");
   if (node.text.find_first_not_of(" \t\n") == std::string::npos) fail(node, "is empty; write what it stands for");
   return node.text;
 }

@@ -96,7 +96,8 @@ void check_names(const Node& node, const std::vector<Word>& words, const std::ve
 const std::vector<std::string>& function_names() {
   static const std::vector<std::string> kNames = [] {
     std::vector<std::string> names;
-    for (const auto& [name, callback] : make_parser()->GetFunDef()) names.push_back(name);
+    const auto parser = make_parser();  // outlives the loop over its table
+    for (const auto& [name, callback] : parser->GetFunDef()) names.push_back(name);
     return names;
   }();
   return kNames;
