@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <ostream>
 
@@ -60,6 +61,10 @@ void print_failing(const std::vector<CaseSection>& sections, const ConsoleStyle&
   heading("What fails", style, out);
   const std::size_t shown = verbose ? failing.size() : std::min(failing.size(), kFailingRowsShown);
   const Paint paint(style);
+  std::size_t name_width = 0;
+  for (std::size_t i = 0; i < shown; ++i) {
+    name_width = std::max(name_width, verdict_name(failing[i].worst->verdict).size());
+  }
   for (std::size_t i = 0; i < shown; ++i) {
     const RunResult& run = *failing[i].worst;
     std::string steps;
@@ -69,7 +74,7 @@ void print_failing(const std::vector<CaseSection>& sections, const ConsoleStyle&
     std::string text = safe_line(fmt::format("{}: {}", where, why(run)), style.unicode);
     const auto width = static_cast<std::size_t>(style.width);
     if (!verbose) text = shorten(text, 2 * width - 40);  // two lines at most
-    const std::string name = pad_right(std::string(verdict_name(run.verdict)), 7);
+    const std::string name = pad_right(std::string(verdict_name(run.verdict)), name_width);
     const std::string block = wrapped("  " + name + "  ", text, width);
     // The verdict's name is the same wherever it stands, so it can be painted after the text was wrapped.
     out << "  " << paint.verdict(run.verdict, name) << block.substr(2 + name.size());
@@ -94,7 +99,10 @@ void print_divergence(const std::vector<CaseSection>& sections, const ConsoleSty
       out << "fewer than two engines ran it\n";
       continue;
     }
-    out << safe_line(fmt::format("{} and {}: {} m apart ({}, dt {} s)", pair.a, pair.b, three_digits(pair.distance),
+    const std::string apart = std::isfinite(pair.distance)
+                                  ? three_digits(pair.distance) + " m apart"
+                                  : three_digits(pair.distance) + ", one of them left the finite numbers";
+    out << safe_line(fmt::format("{} and {}: {} ({}, dt {} s)", pair.a, pair.b, apart,
                                  profile_name(pair.where->profile), step_label(pair.where->dt)),
                      style.unicode)
         << '\n';
@@ -102,11 +110,18 @@ void print_divergence(const std::vector<CaseSection>& sections, const ConsoleSty
   out << '\n';
 }
 
-void print_legend(const ConsoleStyle& style, std::ostream& out) {
+void print_legend(const Report& report, const ConsoleStyle& style, std::ostream& out) {
   std::string text =
-      "a cell: mark, position.max [m] or the value of the first gate that does not hold, footnote. order:"
-      " of position.max in dt. Marks:";
-  for (const VerdictRow& row : verdict_table()) text += fmt::format(" {} {}", row.mark, row.name);
+      "a cell: mark, position.max [m] or the value of the first gate that does not hold, footnote; order: of "
+      "position.max"
+      " in dt; marks:";
+  const VerdictCounts counts = count_verdicts(report);
+  const char* separator = " ";
+  for (const VerdictRow& row : verdict_table()) {
+    if (counts[static_cast<std::size_t>(row.verdict)] == 0) continue;
+    text += fmt::format("{}{} {}", separator, row.mark, row.name);
+    separator = ", ";
+  }
   out << Paint(style).dim(wrapped("", text, static_cast<std::size_t>(style.width))) << '\n';
 }
 
@@ -145,7 +160,7 @@ void print_report(const Report& report, const ConsoleStyle& style, std::ostream&
   ConsoleStyle usable = style;
   usable.width = std::max(style.width, 60);  // narrower, the terminal wraps more readably than we could
   const std::vector<CaseSection> sections = case_sections(report);
-  if (!sections.empty()) print_legend(usable, out);
+  if (!sections.empty()) print_legend(report, usable, out);
   for (const CaseSection& section : sections) print_section(section, usable, options.verbose, out);
   print_divergence(sections, usable, out);
   print_failing(sections, usable, options.verbose, out);

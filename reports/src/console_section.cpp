@@ -32,8 +32,8 @@ std::string cell_text(const RunResult& run) {
   const GateResult* const gate = failed_gate(run);
   if (!row_of(run.verdict).infrastructure) {
     if (gate != nullptr) return three_digits(gate->value);
-    const bool measured = run.verdict == Verdict::kPass || run.verdict == Verdict::kUnexpectedPass ||
-                          run.verdict == Verdict::kExpectedFail || run.verdict == Verdict::kFail;
+    // A trajectory with a hole in it has no largest error; an unsupported one was never run.
+    const bool measured = run.verdict != Verdict::kDiverged && run.verdict != Verdict::kUnsupported;
     if (measured && has_metric(run, "position.max")) return three_digits(run.metric("position.max"));
   }
   return std::string(verdict_name(run.verdict));
@@ -170,7 +170,7 @@ void print_explanations(const CaseSection& section, const ConsoleStyle& style, b
   }
   for (const auto& [key, run] : by_scheme) {
     const std::string text = run_name(*run) + ": " + explanation_text(*run);
-    out << wrapped("  = ", safe_line(text, style.unicode), static_cast<std::size_t>(style.width));
+    out << wrapped("  * ", safe_line(text, style.unicode), static_cast<std::size_t>(style.width));
   }
 }
 

@@ -14,7 +14,8 @@ std::string three_digits(double value) {
   if (std::isnan(value)) return "nan";  // fmt would print a sign bit
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   if (value == 0) return "0";
-  std::string text = fmt::format("{:#.3g}", value);
+  // Below a thousandth, leading zeros are harder to count than an exponent is to read.
+  std::string text = std::abs(value) < 1e-3 ? fmt::format("{:.2e}", value) : fmt::format("{:#.3g}", value);
   if (text.back() == '.') text.pop_back();
   // Exponents have two digits at least; the leading zero only costs room.
   const std::size_t e = text.find('e');
@@ -56,7 +57,7 @@ std::string unit_of(const std::string& name) {
 
 std::string with_unit(double value, const std::string& metric) {
   const std::string unit = unit_of(metric);
-  return three_digits(value) + (unit.empty() ? "" : " " + unit);
+  return three_digits(value) + (unit.empty() || std::isnan(value) ? "" : " " + unit);
 }
 
 std::string explanation_text(const RunResult& run) {

@@ -38,7 +38,8 @@ std::string Footnotes::letter_of(const std::string& key, const std::string& text
 
 std::string Footnotes::cite(const RunResult& run) {
   const GateResult* const gate = failed_gate(run);
-  if (gate != nullptr && !row_of(run.verdict).infrastructure) {
+  // Of the other verdicts, the reason of the run tells more than the gates that fell with it.
+  if (gate != nullptr && (run.verdict == Verdict::kFail || run.verdict == Verdict::kExpectedFail)) {
     const std::string& cause = gate->deviation.empty() ? gate->reason : gate->deviation;
     const std::string what = gate->deviation.empty() ? "the limit's reason: " : "known cause: ";
     return letter_of("gate\n" + gate->metric + "\n" + what + cause, what + cause, gate);

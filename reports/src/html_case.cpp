@@ -50,18 +50,20 @@ std::string order_cell(const CaseRow& row) {
 }
 
 std::string reason_html(const RunResult& run) {
-  std::string html = escaped(run.reason);
+  // Where gates do not hold, their own lines tell more than the summary of them does.
+  const bool told_by_gates =
+      failed_gate(run) != nullptr && (run.verdict == Verdict::kFail || run.verdict == Verdict::kExpectedFail);
+  std::string html = told_by_gates ? "" : escaped(run.reason);
   const auto add = [&](const std::string& text) { html += (html.empty() ? "" : "<br>") + escaped(text); };
   for (const GateResult& gate : run.gates) {
     if (gate.passed) continue;
     add(gate_text(gate) +
         (gate.deviation.empty() ? "; the limit's reason: " + gate.reason : "; known cause: " + gate.deviation));
   }
-  for (const std::string& note : run.notes) add(note);
   if (html.empty()) {
-    html = run.gates.empty() ? "nothing was gated"
-                             : fmt::format("{} of {} gates hold", run.gates.size(), run.gates.size());
+    add(run.gates.empty() ? "no gate applies" : fmt::format("holds {}", counted(run.gates.size(), "gate")));
   }
+  for (const std::string& note : run.notes) add(note);
   if (!run.trajectory.empty()) html += fmt::format(" <a href=\"{}\">trajectory</a>", link_to(run.trajectory));
   if (!run.messages.empty() && row_of(run.verdict).breaks_build) {
     const std::string_view messages = run.messages;
@@ -73,8 +75,8 @@ std::string reason_html(const RunResult& run) {
 }
 
 std::string run_row(const CaseRow& row, const RunResult* run) {
-  const std::string head =
-      fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>", escaped(row.engine), profile_name(row.profile));
+  const std::string head = fmt::format("<tr><th scope=\"row\">{}</th><td class=\"word\">{}</td>", escaped(row.engine),
+                                       profile_name(row.profile));
   if (run == nullptr)
     return head + "<td><span class=\"badge v-none\">not run</span></td><td colspan=\"7\"></td></tr>\n";
   std::string html = head + "<td>" + verdict_badge(run->verdict) + "</td>";

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
-#include <set>
 
 #include "figure.hpp"
 #include "html_style.hpp"
@@ -211,18 +211,18 @@ std::string error_chart(const std::vector<const RunResult*>& runs, const CurveLo
 }
 
 std::string chart_legend(const std::vector<const RunResult*>& runs, const CurveLooks& looks) {
-  std::string html = "<ul class=\"legend\">";
-  std::set<std::size_t> seen;
+  std::map<std::size_t, std::string> names;  // by look, so that every legend has the same order
   for (const RunResult* run : runs) {
-    if (!has_curve(run)) continue;
-    const std::size_t look = looks.index(run->engine);
-    if (!seen.insert(look).second) continue;
+    if (has_curve(run)) names.emplace(looks.index(run->engine), run->engine);
+  }
+  if (names.empty()) return "";
+  std::string html = "<ul class=\"legend\">";
+  for (const auto& [look, name] : names) {
     html += fmt::format(
         "<li><svg viewBox=\"0 0 44 14\" aria-hidden=\"true\"><path class=\"curve k{0}\" d=\"M1 7H43\"/>"
         "<g class=\"mark f{0}\">{1}</g></svg>{2}</li>",
-        look % kCurveColors, marker(look, 22, 7), escaped(run->engine));
+        look % kCurveColors, marker(look, 22, 7), escaped(name));
   }
-  if (seen.empty()) return "";
   return html + "<li class=\"soft\">solid: matched, dashed: default</li></ul>\n";
 }
 

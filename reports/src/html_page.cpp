@@ -52,7 +52,7 @@ std::string headline(const Report& report, const std::vector<CaseSection>& secti
   for (const auto& [key, value] : report.environment) {
     if (key != "command") html += fmt::format("{} {} · ", escaped(key), escaped(value));
   }
-  html += fmt::format("plumbline {} · {}</p>\n", escaped(report.tool_version), duration(report.wall_seconds));
+  html += fmt::format("plumbline {} · took {}</p>\n", escaped(report.tool_version), duration(report.wall_seconds));
   return html + "</header>\n";
 }
 

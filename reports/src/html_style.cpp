@@ -17,7 +17,7 @@ constexpr const char* kSheet = R"css(
 --odd:#42264f;--odd-fg:#e3bdf5;--none:#262d35;--none-fg:#a3adb8;
 --c0:#4da3dd;--c1:#f07f2e;--c2:#1fc296;--c3:#dd94bb;--c4:#f0b030;--c5:#8fd0f7;--c6:#f0e442;--c7:#e4e8ec}}
 *{box-sizing:border-box}
-body{margin:0 auto;max-width:78rem;padding:1rem 1.25rem 4rem;background:var(--bg);color:var(--fg);
+body{margin:0 auto;max-width:94rem;padding:1rem 1.25rem 4rem;background:var(--bg);color:var(--fg);
 font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif}
 h1{font-size:1.7rem;line-height:1.2;margin:.6rem 0 .3rem}
 h2{font-size:1.3rem;margin:2.6rem 0 .4rem;padding-top:.8rem;border-top:1px solid var(--line)}
@@ -39,10 +39,11 @@ table{border-collapse:collapse;font-size:.88rem;font-variant-numeric:tabular-num
 th,td{padding:.28rem .55rem;text-align:left;vertical-align:top;border-bottom:1px solid var(--line)}
 thead th{color:var(--soft);font-weight:600;white-space:nowrap;vertical-align:bottom}
 td.n,th.n{text-align:right;white-space:nowrap}td.none{color:var(--soft)}
-td.text{min-width:15rem;max-width:30rem}
+td.text{min-width:13rem;max-width:26rem}
+tbody th,td.word{white-space:nowrap;overflow-wrap:normal}
 abbr{text-decoration:none}
 .matrix{border-collapse:separate;border-spacing:2px}
-.matrix th,.matrix td{border:0}
+.matrix th,.matrix td{border:0;vertical-align:middle}
 .matrix tbody th{font-weight:500;white-space:nowrap;position:sticky;left:0;background:var(--bg);max-width:20rem;
 overflow:hidden;text-overflow:ellipsis}
 .matrix thead th{text-align:center}

@@ -103,13 +103,14 @@ std::string_view verdict_symbol(Verdict verdict) {
     case Verdict::kDiverged:
       return "∞";
     case Verdict::kCrashed:
-      return "☠";
+      return "†";
     case Verdict::kTimedOut:
-      return "⧖";
+      return "…";
     case Verdict::kNondeterministic:
       return "≠";
-    case Verdict::kError:
-      return "⚠";
+    case Verdict::kError:  // the selector behind the sign asks for text, not for a picture
+
+      return "⚠\xEF\xB8\x8E";
   }
   return "?";
 }

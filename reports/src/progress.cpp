@@ -60,7 +60,8 @@ std::string Progress::line(std::size_t done, std::string_view current, const Ver
   if (done > 0 && done < total_) {
     // The runs that are left take as long as those that are done took, on average.
     const double left = elapsed / static_cast<double>(done) * static_cast<double>(total_ - done);
-    tail += " ETA " + reports::duration(std::max(1.0, std::ceil(left)));
+    const double seconds = std::max(1.0, std::ceil(left));
+    tail += " ETA " + (seconds < 10 ? fmt::format("{:.0f} s", seconds) : reports::duration(seconds));
   } else {
     tail += " " + reports::duration(elapsed);
   }

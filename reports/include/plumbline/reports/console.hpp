@@ -14,7 +14,7 @@ namespace plumbline {
 
 struct ConsoleStyle {
   bool color = false;    // ANSI escape sequences
-  bool unicode = false;  // lines and dashes beyond ASCII
+  bool unicode = false;  // letters beyond ASCII as they are; otherwise each is shown as '?'
   int width = 100;       // columns that text is wrapped at
 };
 
