@@ -83,14 +83,18 @@ TEST_F(MetricTable, EachMetricHasItsHandComputedValue) {
     EXPECT_NEAR(measure(name), value, 16 * kEps * std::abs(value)) << name;
   }
   for (const Metric& metric : metrics()) {
-    if (metric.applies(scenario)) EXPECT_TRUE(by_hand.count(std::string(metric.name)) == 1) << metric.name;
+    if (metric.applies(scenario)) {
+      EXPECT_TRUE(by_hand.count(std::string(metric.name)) == 1) << metric.name;
+    }
   }
 }
 
 TEST_F(MetricTable, IsZeroForTheReferenceItself) {
   const Comparison same{scenario, expected, expected};
   for (const Metric& metric : metrics()) {
-    if (metric.applies(scenario)) EXPECT_EQ(metric.measure(same), 0) << metric.name;
+    if (metric.applies(scenario)) {
+      EXPECT_EQ(metric.measure(same), 0) << metric.name;
+    }
   }
 }
 

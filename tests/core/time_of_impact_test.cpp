@@ -44,8 +44,9 @@ TEST(TimeOfImpact, OfSpheresAgreesWithBisection) {
     Motion a, b;
     a.start.p_WB = random.vector(5);
     b.start.p_WB = random.vector(5);
-    a.start.v_WB = random.vector(3);
-    b.start.v_WB = random.vector(3);
+    // Aimed at each other, with a scatter that makes about half of them miss.
+    a.start.v_WB = random.in(-0.2, 1) * (b.start.p_WB - a.start.p_WB) + random.vector(1);
+    b.start.v_WB = random.vector(0.3);
     const double radius_a = random.in(0.1, 1.5), radius_b = random.in(0.1, 1.5), reach = radius_a + radius_b;
     const Vec3 d = a.start.p_WB - b.start.p_WB, v = a.start.v_WB - b.start.v_WB;
     const auto gap = [&](double t) { return (d + v * t).norm() - reach; };
@@ -64,7 +65,7 @@ TEST(TimeOfImpact, OfSpheresAgreesWithBisection) {
       EXPECT_NEAR(*found, t, 16 * kEps * (20 / rate + t)) << k;
     }
   }
-  EXPECT_GT(hits, kTrials / 20);  // the test must not run empty
+  EXPECT_GT(hits, kTrials / 5);  // the test must not run empty
 }
 
 TEST(TimeOfImpact, WithAPlaneAgreesWithBisection) {
@@ -83,8 +84,12 @@ TEST(TimeOfImpact, WithAPlaneAgreesWithBisection) {
     const double u = plane.normal_W.dot(m.start.v_WB), c = plane.normal_W.dot(m.a_W);
     const auto found = radius == 0 ? point_meets_plane(m, plane) : sphere_meets_plane(m, radius, plane);
     if (gap(0) <= 0) {
-      if (u < 0) EXPECT_EQ(found, 0.0) << k;
-      if (u > 0 && c >= 0) EXPECT_FALSE(found.has_value()) << k;
+      if (u < 0) {
+        EXPECT_EQ(found, 0.0) << k;
+      }
+      if (u > 0 && c >= 0) {
+        EXPECT_FALSE(found.has_value()) << k;
+      }
       continue;
     }
     // Where the gap is smallest (turning point ahead) or certainly closed (falling for good).
@@ -107,7 +112,7 @@ TEST(TimeOfImpact, WithAPlaneAgreesWithBisection) {
       EXPECT_NEAR(*found, t, 16 * kEps * (reach / rate + t)) << k;
     }
   }
-  EXPECT_GT(hits, kTrials / 4);
+  EXPECT_GT(hits, kTrials / 5);
   EXPECT_GT(returns, kTrials / 20);
 }
 

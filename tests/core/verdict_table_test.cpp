@@ -32,9 +32,13 @@ TEST(VerdictTable, NamesAndMarksAreUniqueAndReadBack) {
 TEST(VerdictTable, WhatBreaksTheBuildIsWorseThanWhatDoesNot) {
   for (const VerdictRow& bad : verdict_table()) {
     for (const VerdictRow& good : verdict_table()) {
-      if (bad.breaks_build && !good.breaks_build) EXPECT_GT(bad.badness, good.badness) << bad.name << " " << good.name;
+      if (bad.breaks_build && !good.breaks_build) {
+        EXPECT_GT(bad.badness, good.badness) << bad.name << " " << good.name;
+      }
     }
-    if (bad.infrastructure) EXPECT_TRUE(bad.breaks_build) << bad.name;
+    if (bad.infrastructure) {
+      EXPECT_TRUE(bad.breaks_build) << bad.name;
+    }
   }
   EXPECT_FALSE(row_of(Verdict::kPass).breaks_build);
   EXPECT_TRUE(row_of(Verdict::kUnexpectedPass).breaks_build);

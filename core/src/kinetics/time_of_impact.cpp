@@ -42,8 +42,8 @@ std::optional<double> advance(const Curve& curve, double bend, double tolerance,
       if (!(bend > 0)) return std::nullopt;
       step = (slope + root) / bend;
     }
-    // A curve that starts on the surface with slope 0 has no bound to walk along: let it bend for a moment.
-    if (!(step > horizon * 1e-12)) step = horizon * 1e-12;
+    // On the surface with a slope of next to nothing there is no bound to walk along: let the curve bend for a moment.
+    if (value <= tolerance && !(step > horizon * 1e-12)) step = horizon * 1e-12;
     t += step;
     if (!(t <= horizon)) return std::nullopt;
   }
