@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
@@ -106,13 +107,18 @@ Trajectory unpack(std::span<const std::byte> block, double dt, std::size_t bodie
 
 namespace {
 
+// JSON has no infinity; an engine's "no limit" travels as {"number": "inf"}, so that it cannot pass for a word.
 nlohmann::json value_to_json(const SettingValue& value) {
+  if (const auto* number = std::get_if<double>(&value); number != nullptr && !std::isfinite(*number)) {
+    return {{"number", shortest(*number)}};
+  }
   return std::visit([](const auto& v) { return nlohmann::json(v); }, value);
 }
 
 SettingValue value_from_json(const nlohmann::json& json) {
   if (json.is_boolean()) return json.get<bool>();
   if (json.is_number()) return json.get<double>();
+  if (json.is_object()) return std::stod(json.at("number").get<std::string>());
   return json.get<std::string>();
 }
 

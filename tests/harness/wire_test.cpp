@@ -86,10 +86,12 @@ TEST(Wire, CarriesEngineInfoWhole) {
   info.scheme = "semi-implicit Euler";
   info.velocity_offset = 0.5;
   info.features = {Feature::kFriction, Feature::kBoxBox};
-  info.settings = {{"sleeping", true, false, "", "m"}, {"erp", 0.2, 0.0, "1", "m"}, {"solver", "a", "b", "", "m"}};
+  info.settings = {{"sleeping", true, false, "", "m"}, {"erp", 0.2, 0.0, "1", "m"}, {"solver", std::string("a"), std::string("b"), "", "m"},
+                   {"cap", std::numeric_limits<double>::infinity(), -1.0, "m/s", "m"}, {"word", std::string("inf"), std::string("x"), "", "m"}};
   EngineInfo got = engine_info_from_json(to_json(info));
   EXPECT_EQ(to_json(got), to_json(info));
   EXPECT_EQ(got.features, info.features);
+  EXPECT_EQ(settings_of(got, Profile::kDefault), settings_of(info, Profile::kDefault));
   EXPECT_EQ(settings_of(got, Profile::kMatched), settings_of(info, Profile::kMatched));
 }
 
