@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -99,6 +100,8 @@ TEST(Expressions, ComputeWhatTheySay) {
   EXPECT_EQ(value_of("a > 6 ? 1 : 0/0"), 1);
   EXPECT_EQ(value_of("a == 7 && a != 8"), 1);
   EXPECT_EQ(value_of("ln(exp(2))"), 2);
+  EXPECT_EQ(value_of("log(a) - ln(a)"), 0);
+  EXPECT_EQ(value_of("log10(1000)"), 3);
   EXPECT_EQ(value_of("pi"), std::numbers::pi);
 }
 
@@ -249,6 +252,18 @@ TEST(Gate, KnowsTheScalesTheDurationAndTheRun) {
             0.25 + 80 + 500 + 2e4 + 2e5 + 4e6 + 3e7 + 0.5e8 + 0.75e9 + 1.5e10);
   EXPECT_EQ(c.scenario.gates[0].place.line, 14);
   EXPECT_EQ(c.scenario.gates[0].place.column, 9);
+}
+
+TEST(Documentation, ShowsAnExampleThatCanBeRead) {
+  std::ifstream stream(PLUMBLINE_SOURCE_DIR "/docs/writing_a_scenario.md");
+  const std::string page{std::istreambuf_iterator<char>(stream), {}};
+  const std::string fence = "```toml\n";
+  const std::size_t begin = page.find(fence);
+  ASSERT_NE(begin, std::string::npos);
+  const std::string example =
+      page.substr(begin + fence.size(), page.find("\n```", begin + fence.size()) - begin - fence.size());
+  EXPECT_EQ(names(read_scenario(example, "example.toml")),
+            (Names{"particle/coasting/v0=1", "particle/coasting/v0=10"}));
 }
 
 class ScenarioFolder : public testing::Test {
