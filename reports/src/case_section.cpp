@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -11,13 +10,11 @@ namespace {
 
 using RowKey = std::pair<std::string, Profile>;
 
-// Sorts NaN behind infinity: a number that is none is the worst of all.
-struct Size {
-  bool nan;
-  double value;
-  explicit Size(double v) : nan(std::isnan(v)), value(nan ? 0 : std::abs(v)) {}
-  auto operator<=>(const Size&) const = default;
-};
+// By magnitude; NaN is larger than infinity: a number that is none is the worst of all.
+bool is_larger(double a, double b) {
+  if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && !std::isnan(b);
+  return std::abs(a) > std::abs(b);
+}
 
 // A run without position.max sorts below all others of its verdict.
 double error_of(const RunResult& run) {
@@ -77,7 +74,7 @@ CaseSection section_of(const std::string& case_name, const std::vector<const Run
 
 bool is_worse(const RunResult& a, const RunResult& b) {
   const int x = row_of(a.verdict).badness, y = row_of(b.verdict).badness;
-  return x != y ? x > y : Size(error_of(a)) > Size(error_of(b));
+  return x != y ? x > y : is_larger(error_of(a), error_of(b));
 }
 
 const RunResult* worst_run(const CaseRow& row) {
@@ -131,7 +128,7 @@ WidestPair widest_pair(const CaseSection& section) {
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = i + 1; j < n && i * n + j < d->distance.size(); ++j) {
         const double distance = d->distance[i * n + j];
-        if (widest.where != nullptr && Size(distance) <= Size(widest.distance)) continue;
+        if (widest.where != nullptr && !is_larger(distance, widest.distance)) continue;
         widest = {d, d->engines[i], d->engines[j], distance};
       }
     }

@@ -41,8 +41,10 @@ std::string Footnotes::cite(const RunResult& run) {
   // Of the other verdicts, the reason of the run tells more than the gates that fell with it.
   if (gate != nullptr && (run.verdict == Verdict::kFail || run.verdict == Verdict::kExpectedFail)) {
     const std::string& cause = gate->deviation.empty() ? gate->reason : gate->deviation;
-    const std::string what = gate->deviation.empty() ? "the limit's reason: " : "known cause: ";
-    return letter_of("gate\n" + gate->metric + "\n" + what + cause, what + cause, gate);
+    const std::string text = (gate->deviation.empty() ? "the limit's reason: " : "known cause: ") + cause;
+    std::string key = "gate\n";
+    key.append(gate->metric).append("\n").append(text);
+    return letter_of(key, text, gate);
   }
   if (run.verdict == Verdict::kPass) return "";
   const std::string name(verdict_name(run.verdict));
@@ -58,8 +60,9 @@ std::vector<Footnotes::Note> Footnotes::notes() const {
     const Entry& e = entries_[i];
     std::string text = e.text;
     if (e.gate != nullptr) {
-      const std::string worst = e.count > 1 ? " (the worst of " + std::to_string(e.count) + ")" : "";
-      text = gate_text(*e.gate) + worst + "; " + text;
+      text = gate_text(*e.gate);
+      if (e.count > 1) text.append(" (the worst of ").append(std::to_string(e.count)).append(")");
+      text.append("; ").append(e.text);
     }
     notes.push_back({letter(i), std::move(text)});
   }

@@ -16,8 +16,9 @@ bool set(const char* variable) {
 // The locale that the environment asks for, whether or not the program called setlocale.
 bool locale_is_utf8() {
   for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
-    if (!set(variable)) continue;
-    const std::string_view value = std::getenv(variable);
+    const char* const found = std::getenv(variable);
+    if (found == nullptr || *found == '\0') continue;
+    const std::string_view value = found;
     return value.find("UTF-8") != value.npos || value.find("utf8") != value.npos || value.find("utf-8") != value.npos;
   }
   return false;

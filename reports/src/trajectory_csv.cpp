@@ -1,11 +1,13 @@
 #include "plumbline/reports/trajectory_csv.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "text_file.hpp"
 
