@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <fstream>
+#include <string>
+#include <string_view>
 #include <thread>
 
 namespace plumbline {
@@ -23,6 +25,18 @@ std::string line_value(const char* file, std::string_view key, char separator) {
   return "unknown";
 }
 
+// The command line as one could type it again, whatever the path of the program was.
+std::string command_line() {
+  std::ifstream in("/proc/self/cmdline", std::ios::binary);
+  std::string command = "./plumbline", argument;
+  std::getline(in, argument, '\0');  // the program itself
+  while (std::getline(in, argument, '\0')) {
+    const bool plain = argument.find_first_of(" \t\n'\"\\$&|;<>()*?[]{}~#!`") == std::string::npos && !argument.empty();
+    command += plain ? ' ' + argument : " '" + argument + "'";
+  }
+  return command;
+}
+
 }  // namespace
 
 Environment describe_environment() {
@@ -34,7 +48,8 @@ Environment describe_environment() {
           {"processor", line_value("/proc/cpuinfo", "model name", ':')},
           {"cores", std::to_string(std::thread::hardware_concurrency())},
           {"compiler", PLUMBLINE_COMPILER},
-          {"build", PLUMBLINE_BUILD}};
+          {"build", PLUMBLINE_BUILD},
+          {"command", command_line()}};
 }
 
 }  // namespace plumbline

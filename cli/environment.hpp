@@ -1,4 +1,4 @@
-// What a result depends on besides the code: machine, system, compiler, flags.
+// What a result depends on besides the code: machine, system, compiler, flags, and the command that was given.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace plumbline {
 
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
-// date (UTC), system, processor, cores, compiler, build flags.
+// date (UTC), system, processor, cores, compiler, build (flags), command.
 Environment describe_environment();
 
 }  // namespace plumbline

@@ -16,11 +16,14 @@ Relative relative(const Trajectory& t, std::size_t sample, const Event& e) {
   return {a.p_WB - b.p_WB, a.v_WB - b.v_WB};
 }
 
+// Share of the reference's jump that makes a jump count, and that makes a smaller one next to it belong to it.
+constexpr double kCounts = 0.25, kBelongs = 0.02;
+
 // What the reference does around an event.
 struct Expected {
   Vec3 direction = Vec3::Zero();  // unit, of the jump in relative velocity
   double jump = 0;                // its size [m/s]
-  double acceleration = 0;        // along the direction, just before [m/s^2]
+  double before = 0, after = 0;   // acceleration along the direction on either side [m/s^2]
 };
 
 Expected expected_at(const Trajectory& reference, const Event& event) {
@@ -35,7 +38,13 @@ Expected expected_at(const Trajectory& reference, const Event& event) {
   result.jump = jump.norm();
   if (!(result.jump > 0)) return result;
   result.direction = jump / result.jump;
-  result.acceleration = result.direction.dot(drift) / dt;
+  result.before = result.direction.dot(drift) / dt;
+  result.after = result.before;
+  if (before + 2 < reference.samples()) {
+    const Vec3 next = relative(reference, before + 2, event).v - relative(reference, before + 1, event).v;
+    // A second event within the next step would pass for an acceleration.
+    if (next.norm() < kBelongs * result.jump + drift.norm()) result.after = result.direction.dot(next) / dt;
+  }
   return result;
 }
 
@@ -47,10 +56,10 @@ class Finder {
   // First event that begins at sample `from` or later; `from` moves behind it.
   std::optional<double> find(std::size_t& from) const {
     for (std::size_t k = from; k + 1 < t_.samples(); ++k) {
-      if (!(excess(k) > kBelongs * expected_.jump)) continue;
+      if (!(jump(k, expected_.before) > kBelongs * expected_.jump)) continue;
       std::size_t end = k + 1;
-      double total = excess(k);
-      while (end + 1 < t_.samples() && excess(end) > kBelongs * expected_.jump) total += excess(end++);
+      double total = jump(k, expected_.before);
+      while (end + 1 < t_.samples() && goes_on(end)) total += jump(end++, expected_.before);
       if (total >= kCounts * expected_.jump) {
         from = end;
         return meeting_time(k, end);
@@ -61,19 +70,31 @@ class Finder {
   }
 
  private:
-  static constexpr double kCounts = 0.25, kBelongs = 0.02;
-
   double along(const Vec3& v) const { return expected_.direction.dot(v); }
   double speed(std::size_t k) const { return along(relative(t_, k, event_).v); }
   double place(std::size_t k) const { return along(relative(t_, k, event_).p); }
-  double excess(std::size_t k) const { return speed(k + 1) - speed(k) - expected_.acceleration * t_.dt(); }
+  // Change of speed over the step from sample k that the acceleration does not explain [m/s].
+  double jump(std::size_t k, double acceleration) const { return speed(k + 1) - speed(k) - acceleration * t_.dt(); }
 
-  // s_i + u_i (t-t_i) + a/2 (t-t_i)^2 = s_j + u_j (t-t_j) + a/2 (t-t_j)^2 is linear in t: the squares cancel.
+  // The step from sample k is still part of the impact: it is free motion neither as before nor as after it. (A body
+  // that lies is free of jumps by the acceleration after, not by that of its fall.)
+  bool goes_on(std::size_t k) const {
+    const double least = kBelongs * expected_.jump;
+    return jump(k, expected_.before) > least && std::abs(jump(k, expected_.after)) > least;
+  }
+
+  // Where s_i + u_i tau + a0/2 tau^2, the flight before, meets s_j - u_j (T - tau) + a1/2 (T - tau)^2, the motion after;
+  // tau is counted from t_i, T = t_j - t_i. Without accelerations the equation is linear; Newton's method starts from
+  // there and converges in a few steps, since a T is small against the jump.
   double meeting_time(std::size_t i, std::size_t j) const {
-    const double a = expected_.acceleration, span = t_.time(j) - t_.time(i);
-    const double ui = speed(i), uj = speed(j);
-    const double slope = ui - (uj - a * span);
-    const double tau = (place(j) - place(i) - uj * span + 0.5 * a * span * span) / slope;  // counted from t_i
+    const double a0 = expected_.before, a1 = expected_.after, span = t_.time(j) - t_.time(i);
+    const double ui = speed(i), uj = speed(j), gap = place(i) - place(j);
+    double tau = (uj * span + gap) / (uj - ui);
+    for (int k = 0; k < 8; ++k) {
+      const double rest = span - tau;
+      const double f = gap + ui * tau + 0.5 * a0 * tau * tau + uj * rest - 0.5 * a1 * rest * rest;
+      tau -= f / (ui + a0 * tau - uj + a1 * rest);
+    }
     const bool sensible = tau >= -2 * t_.dt() && tau <= span + 2 * t_.dt();
     return t_.time(i) + (sensible ? tau : span);
   }

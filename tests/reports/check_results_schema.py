@@ -8,7 +8,7 @@ try:
     import jsonschema
 except ImportError:
     print("python3-jsonschema is not installed: apt-get install python3-jsonschema")
-    sys.exit(77)
+    sys.exit(1)
 
 
 def run_with(key):

@@ -9,8 +9,8 @@ import tomllib
 try:
     import jsonschema
 except ImportError:
-    print("python3-jsonschema is not installed: nothing was checked")
-    sys.exit(77)
+    print("python3-jsonschema is not installed: apt-get install python3-jsonschema")
+    sys.exit(1)
 
 
 def faults(sound):

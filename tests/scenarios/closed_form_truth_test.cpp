@@ -123,16 +123,17 @@ TEST_P(EveryScenario, KeepsItsEventsOffTheStepBoundaries) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, EveryScenario,
-                         testing::Values("particle/falling_box", "particle/drag_ship", "collision/two_sphere",
-                                         "collision/box_drop", "collision/bouncing_ball"),
-                         [](const auto& row) { return row.param.substr(row.param.find('/') + 1); });
-
-TEST(ScenarioFiles, AreTheOnesChecked) {
-  std::vector<std::string> found;
-  for (const auto& file : find_scenario_files(kFolder)) found.push_back(file.stem().string());
-  EXPECT_EQ(found, (std::vector<std::string>{"bouncing_ball", "box_drop", "two_sphere", "drag_ship", "falling_box"}));
+// Every file there is: a new scenario is checked without a line of code.
+std::vector<std::string> all_ids() {
+  std::vector<std::string> ids;
+  for (const auto& file : find_scenario_files(kFolder)) {
+    ids.push_back((file.parent_path().filename() / file.stem()).generic_string());
+  }
+  return ids;
 }
+
+INSTANTIATE_TEST_SUITE_P(Files, EveryScenario, testing::ValuesIn(all_ids()),
+                         [](const auto& row) { return row.param.substr(row.param.find('/') + 1); });
 
 TEST(FallingBox, StartsAndEndsWhereTheSlideSaysTurnedToZUp) {
   const auto cases = cases_of("particle/falling_box");

@@ -24,11 +24,15 @@ std::vector<Scheme> family(const Scenario& s) {
   // Under gravity a scheme that acts one step late sinks in for one more step at every impact. The limits of the
   // scenarios with weight exclude it; two spheres in free flight only meet a little late.
   const bool weight = s.gravity.norm() > 0;
+  // A body that must lie at its height is only brought there by a scheme that lifts it out of the ground.
+  const bool rests = weight && s.contact && s.contact->restitution == 0;
   std::vector<Scheme> all;
   for (Seen seen : {Seen::kAhead, Seen::kInside, Seen::kOneStepLate}) {
     if (seen == Seen::kOneStepLate && weight) continue;
     for (bool after : {false, true}) {
-      for (bool lifts : {false, true}) all.push_back({seen, after, lifts});
+      for (bool lifts : {false, true}) {
+        if (lifts || !rests) all.push_back({seen, after, lifts});
+      }
     }
   }
   return all;
@@ -167,7 +171,6 @@ TEST(GateLimit, IsReachedByAFirstOrderScheme) {
   EXPECT_GT(worst("collision/two_sphere", "velocity.final"), 0.25);
   EXPECT_GT(worst("collision/two_sphere", "energy.final"), 0.25);
   EXPECT_GT(worst("collision/box_drop", "event_time.max"), 0.5);
-  EXPECT_GT(worst("collision/box_drop", "position.final"), 0.25);
   EXPECT_GT(worst("collision/bouncing_ball", "event_time.max"), 0.25);
   EXPECT_GT(worst("collision/bouncing_ball", "position.final"), 0.1);  // errors of time and of speed cancel in part
   EXPECT_GT(worst("collision/bouncing_ball", "velocity.final"), 0.25);

@@ -13,7 +13,8 @@ namespace plumbline {
 // An impact is a jump of the two bodies' relative velocity along the direction in which the reference jumps. A jump
 // counts when it is at least a quarter of the reference's; smaller consecutive jumps around it (an engine that
 // brakes over several steps) belong to the same event. The time is where the flight before the jump and the
-// flight after it, both extended with the acceleration before it, meet: it is not rounded to the sampling.
+// motion after it, extended with the reference's accelerations before and after it, meet: it is not rounded to the
+// sampling.
 // Events of one pair are matched in order, each after the one before.
 std::vector<std::optional<double>> event_times(const Comparison& comparison);
 
