@@ -56,7 +56,9 @@ class ClosedFormReader {
 
   std::shared_ptr<const Reference> read() {
     if (const Node* u = find(table_, "uncertainty")) result_->uncertainty_ = positive_number(*u, constants_);
-    result_->citation_ = as_text(need(table_, "citation", "citation = \"where the solution comes from\""));
+    // The scenario's own source serves unless the solution has another one.
+    const Node* citation = find(table_, "citation");
+    result_->citation_ = citation != nullptr ? as_text(*citation) : scenario_.source;
     read_let();
     for (const Body& body : scenario_.bodies) result_->motions_.push_back({components_of(body.initial), {}});
     for (const Entry& entry : table_.entries) {
@@ -151,7 +153,7 @@ class ClosedFormReader {
 
 std::shared_ptr<const Reference> read_reference(const Node& root, const Parameters& constants,
                                                 const Scenario& scenario) {
-  const Node& table = as_table(need(root, "reference", "[reference] with kind = \"closed_form\" and a citation"));
+  const Node& table = as_table(need(root, "reference", "[reference] with kind = \"closed_form\" and the solution"));
   const Node& kind = need(table, "kind", "kind = \"closed_form\"");
   if (as_text(kind) != "closed_form") fail(kind, fmt::format("unknown kind '{}'; known: closed_form", kind.text));
   return ClosedFormReader(table, constants, scenario).read();

@@ -23,39 +23,56 @@ bool same_bits(const std::vector<BodyState>& a, const std::vector<BodyState>& b)
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(BodyState)) == 0;
 }
 
-// Balls and boxes that fall, touch and rest: whatever an engine keeps between steps is in use.
-Scenario busy_scene(double shift) {
+// Bodies that fall, touch and rest: whatever an engine keeps between steps is in use. First all kinds together, then
+// simpler scenes for an engine that lacks some pair of shapes.
+std::vector<Scenario> busy_scenes(double shift) {
   Scenario scenario;
   scenario.gravity = Vec3(0, 0, -9.81);
   scenario.contact = ContactMaterial{0.3, 0.4};
-  scenario.bodies = {half_space(Vec3::UnitZ()), ball("ball", 0.2, 1, Vec3(shift, 0, 0.5), Vec3(1, 0, 0)),
-                     ball("other", 0.3, 3, Vec3(shift + 0.6, 0, 0.5), Vec3(-1, 0, 0)),
-                     box("low", Vec3(1, 1, 1), 10, Vec3(3 + shift, 0, 0.6)),
-                     box("high", Vec3(0.8, 0.8, 0.8), 5, Vec3(3.1 + shift, 0, 1.7))};
-  return scenario;
+  const std::vector<Body> ground = {half_space(Vec3::UnitZ())};
+  const std::vector<Body> balls = {ball("ball", 0.2, 1, Vec3(shift, 0, 0.5), Vec3(1, 0, 0)),
+                                   ball("other", 0.3, 3, Vec3(shift + 0.6, 0, 0.5), Vec3(-1, 0, 0))};
+  const std::vector<Body> boxes = {box("low", Vec3(1, 1, 1), 10, Vec3(3 + shift, 0, 0.6)),
+                                   box("high", Vec3(0.8, 0.8, 0.8), 5, Vec3(3.1 + shift, 0, 1.7))};
+  const auto with = [&](std::initializer_list<std::vector<Body>> groups) {
+    Scenario s = scenario;
+    for (const auto& group : groups) s.bodies.insert(s.bodies.end(), group.begin(), group.end());
+    return s;
+  };
+  return {with({ground, balls, boxes}), with({ground, balls}), with({ground, {boxes[0]}})};
 }
 
 TEST_P(Contact, SameRunTwiceGivesTheSameBits) {
-  const Scenario scenario = busy_scene(0);
-  if (const std::string lack = missing(scenario); !lack.empty()) GTEST_SKIP() << "lacks " << lack;
-  const auto first = run(*build(scenario), scenario, kStep, 128);
-  const auto again = run(*build(scenario), scenario, kStep, 128);
-  EXPECT_TRUE(same_bits(first, again));
+  int ran = 0;
+  for (const Scenario& scenario : busy_scenes(0)) {
+    if (!missing(scenario).empty()) continue;
+    const auto first = run(*build(scenario), scenario, kStep, 128);
+    const auto again = run(*build(scenario), scenario, kStep, 128);
+    EXPECT_TRUE(same_bits(first, again));
+    ++ran;
+  }
+  if (ran == 0) GTEST_SKIP() << "lacks " << missing(busy_scenes(0).back());
 }
 
 TEST_P(Contact, TwoWorldsDoNotMix) {
-  const Scenario one = busy_scene(0), two = busy_scene(0.07);
-  if (const std::string lack = missing(one); !lack.empty()) GTEST_SKIP() << "lacks " << lack;
-  const auto one_alone = run(*build(one), one, kStep, 128);
-  const auto two_alone = run(*build(two), two, kStep, 128);
-  ASSERT_FALSE(same_bits(one_alone, two_alone));
-  const auto one_world = build(one), two_world = build(two);
-  for (int k = 0; k < 128; ++k) {
-    one_world->step(kStep);
-    two_world->step(kStep);
+  const auto ones = busy_scenes(0), twos = busy_scenes(0.07);
+  int ran = 0;
+  for (std::size_t i = 0; i < ones.size(); ++i) {
+    const Scenario &one = ones[i], &two = twos[i];
+    if (!missing(one).empty()) continue;
+    const auto one_alone = run(*build(one), one, kStep, 128);
+    const auto two_alone = run(*build(two), two, kStep, 128);
+    ASSERT_FALSE(same_bits(one_alone, two_alone));
+    const auto one_world = build(one), two_world = build(two);
+    for (int k = 0; k < 128; ++k) {
+      one_world->step(kStep);
+      two_world->step(kStep);
+    }
+    EXPECT_TRUE(same_bits(states_of(*one_world, one), one_alone));
+    EXPECT_TRUE(same_bits(states_of(*two_world, two), two_alone));
+    ++ran;
   }
-  EXPECT_TRUE(same_bits(states_of(*one_world, one), one_alone));
-  EXPECT_TRUE(same_bits(states_of(*two_world, two), two_alone));
+  if (ran == 0) GTEST_SKIP() << "lacks " << missing(ones.back());
 }
 
 TEST_P(Contact, WithoutMaterialBodiesPassThroughEachOther) {

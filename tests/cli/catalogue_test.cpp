@@ -30,7 +30,7 @@ std::map<std::string, json> engines() {
 TEST(Catalogue, EveryCellHasAVerdictAndNoneIsBlank) {
   std::set<std::string> seen;
   std::size_t cases_times_steps = 0;
-  for (const json& s : results().at("scenarios")) cases_times_steps += s.at("cases").size() * s.at("dt").size();
+  for (const json& s : results().at("scenarios")) cases_times_steps += s.at("cases").size() * s.at("steps").size();
   for (const json& run : results().at("runs")) {
     const std::string verdict = run.at("verdict");
     ASSERT_TRUE(verdict_named(verdict)) << verdict;
@@ -88,7 +88,9 @@ TEST(Catalogue, PlanarEnginesSayThatTheyRanTheProjection) {
     if (run.at("scenario") != "particle/falling_box") continue;
     const bool planar = rows.at(run.at("engine")).at("dimension") == 2;
     EXPECT_EQ(!run.at("notes").empty(), planar) << run.at("engine");
-    if (planar) EXPECT_TRUE(run.at("notes")[0].get<std::string>().starts_with("planar projection"));
+    if (planar) {
+      EXPECT_TRUE(run.at("notes")[0].get<std::string>().starts_with("planar projection"));
+    }
   }
 }
 

@@ -125,7 +125,7 @@ citation = "none"
 ball.x = "v0/c*(1 - exp(-c*t))"
 ball.vx = "v0*exp(-c*t)"
 )x",
-     "", "f.toml:1:1: /reference: is missing; add [reference] with kind = \"closed_form\" and a citation"},
+     "", "f.toml:1:1: /reference: is missing; add [reference] with kind = \"closed_form\" and the solution"},
     {"NegativeMass", "mass = 1\nvelocity", "mass = -1\nvelocity", "f.toml:20:8: /body/0/mass: must be > 0, is -1"},
     {"ZeroDuration", "duration = 2", "duration = 0", "f.toml:4:12: /duration: must be > 0, is 0"},
     {"ZeroStep", "duration = 2", "duration = 2\nsteps = [0.01, 0]", "f.toml:5:16: /steps/1: must be > 0, is 0"},
