@@ -31,8 +31,8 @@ Report read(const std::string& file) {
 int compare(const CompareOptions& options) {
   const auto found = changes(read(options.before), read(options.after), options.tolerance);
   print_changes(found, console_style_for(STDOUT_FILENO), std::cout);
-  const bool worse = std::any_of(found.begin(), found.end(),
-                                 [](const RunChange& c) { return c.kind == RunChange::Kind::kWorse; });
+  const bool worse =
+      std::any_of(found.begin(), found.end(), [](const RunChange& c) { return c.kind == RunChange::Kind::kWorse; });
   if (found.empty()) return kExitNothingMatched;
   return worse ? kExitGateFailed : kExitPass;
 }

@@ -28,7 +28,8 @@ class Reader {
                                    std::string_view(e.description())));
     }
     for (auto&& [key, node] : root) {
-      if (key.str() != "deviation") fail(node, fmt::format("unknown key '{}'; only [[deviation]] stands here", key.str()));
+      if (key.str() != "deviation")
+        fail(node, fmt::format("unknown key '{}'; only [[deviation]] stands here", key.str()));
     }
     if (const toml::array* entries = root["deviation"].as_array()) {
       for (const toml::node& entry : *entries) add(require_table(entry));
@@ -94,7 +95,8 @@ class Reader {
         base.link = text(node);
       } else {
         fail(node, fmt::format("unknown key '{}'; a deviation has engines, scenario, parameters, profile, dt, limits, "
-                               "why, link", name));
+                               "why, link",
+                               name));
       }
     }
     if (base.scenario.empty()) fail(entry, "a deviation must name its scenario");

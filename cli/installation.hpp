@@ -12,9 +12,9 @@ struct LeftOutEngine {
 };
 
 struct Installation {
-  std::filesystem::path scenarios;                // folder of scenario files
-  std::vector<std::filesystem::path> workers;     // programs plumbline-engine-*, sorted by name
-  std::vector<LeftOutEngine> left_out;            // engines whose library was missing at build time
+  std::filesystem::path scenarios;             // folder of scenario files
+  std::vector<std::filesystem::path> workers;  // programs plumbline-engine-*, sorted by name
+  std::vector<LeftOutEngine> left_out;         // engines whose library was missing at build time
 };
 
 // Found from the place of the running program: ../share/plumbline, ../libexec/plumbline; further folders with

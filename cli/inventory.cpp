@@ -26,8 +26,10 @@ std::vector<fs::path> scenario_files(const Installation& installation, const std
     } else if (fs::exists(path)) {
       files.emplace_back(path);
     } else {
-      throw UsageError(fmt::format("{}: no such file or folder; `plumbline list` shows the built-in scenarios, --filter "
-                                   "selects among them", path));
+      throw UsageError(
+          fmt::format("{}: no such file or folder; `plumbline list` shows the built-in scenarios, --filter "
+                      "selects among them",
+                      path));
     }
   }
   return files;
@@ -42,8 +44,14 @@ std::string file_text(const fs::path& file) {
 ScenarioSummary summary_of(const std::vector<Case>& cases, const fs::path& file) {
   const Scenario& first = cases.front().scenario;
   const Reference& reference = *cases.front().reference;
-  ScenarioSummary summary{first.id,     first.about, first.source, file.filename().string(), std::string(reference.kind()),
-                          std::string(reference.citation()), {}, first.steps};
+  ScenarioSummary summary{first.id,
+                          first.about,
+                          first.source,
+                          file.filename().string(),
+                          std::string(reference.kind()),
+                          std::string(reference.citation()),
+                          {},
+                          first.steps};
   for (const Case& c : cases) summary.cases.push_back(c.scenario.case_name());
   return summary;
 }
@@ -71,8 +79,10 @@ ScenarioInventory load_scenarios(const Installation& installation, const std::ve
       for (const Case& c : cases) {
         for (const auto& [name, value] : c.scenario.parameters) parameters.insert(name);
         if (!names.insert(c.scenario.case_name()).second) {
-          throw ScenarioError(fmt::format("{}: the case {} exists already in another file; give this one an id of its "
-                                          "own", file.string(), c.scenario.case_name()));
+          throw ScenarioError(
+              fmt::format("{}: the case {} exists already in another file; give this one an id of its "
+                          "own",
+                          file.string(), c.scenario.case_name()));
         }
         inventory.cases.push_back({c.scenario, c.reference, text, file.string()});
       }
@@ -103,7 +113,8 @@ EngineInventory load_engines(const Installation& installation) {
   }
   for (const LeftOutEngine& left_out : installation.left_out) {
     engines.missing.push_back({left_out.name, fmt::format("its library was not found when Plumbline was built; "
-                                                          "apt-get install {}, then build again", left_out.package)});
+                                                          "apt-get install {}, then build again",
+                                                          left_out.package)});
   }
   // The same order everywhere: by name, the in-house core like any other.
   std::sort(engines.rows.begin(), engines.rows.end(),
@@ -114,9 +125,8 @@ EngineInventory load_engines(const Installation& installation) {
 void select_engines(EngineInventory& engines, const std::vector<std::string>& selectors) {
   if (selectors.empty()) return;
   for (const std::string& selector : selectors) {
-    const bool names_one = std::any_of(engines.rows.begin(), engines.rows.end(), [&](const EngineRow& row) {
-      return selects_engine(selector, row.info.name);
-    });
+    const bool names_one = std::any_of(engines.rows.begin(), engines.rows.end(),
+                                       [&](const EngineRow& row) { return selects_engine(selector, row.info.name); });
     if (names_one) continue;
     for (const MissingEngine& missing : engines.missing) {
       if (missing.name.find(selector) != std::string::npos) {

@@ -21,8 +21,12 @@ struct ListOptions {
 nlohmann::json listing(const ScenarioInventory& scenarios, const EngineInventory& engines) {
   nlohmann::json json{{"scenarios", nlohmann::json::array()}, {"engines", nlohmann::json::array()}};
   for (const ScenarioSummary& s : scenarios.summaries) {
-    json["scenarios"].push_back({{"id", s.id}, {"about", s.about}, {"source", s.source}, {"cases", s.cases},
-                                 {"dt", s.steps}, {"reference", s.reference_kind}});
+    json["scenarios"].push_back({{"id", s.id},
+                                 {"about", s.about},
+                                 {"source", s.source},
+                                 {"cases", s.cases},
+                                 {"dt", s.steps},
+                                 {"reference", s.reference_kind}});
   }
   for (const EngineRow& row : engines.rows) {
     json["engines"].push_back({{"name", row.info.name},
@@ -75,7 +79,8 @@ void add_list_verb(CLI::App& program, Action& action) {
   const auto options = std::make_shared<ListOptions>();
   CLI::App* verb = program.add_subcommand("list", "Show the scenarios and the engines");
   verb->add_option("paths", options->paths, "Scenario files or folders instead of the built-in catalogue");
-  verb->add_option("-f,--filter", options->filter, "Only cases whose name matches this regular expression; -REGEX negates");
+  verb->add_option("-f,--filter", options->filter,
+                   "Only cases whose name matches this regular expression; -REGEX leaves out");
   verb->add_flag("--json", options->json, "Machine-readable: {\"scenarios\": [...], \"engines\": [...]}");
   verb->callback([options, &action] { action = [options] { return list(*options); }; });
 }

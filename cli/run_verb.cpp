@@ -161,7 +161,7 @@ class RunVerb {
   void carry_out() {
     std::signal(SIGINT, request_stop);
     std::signal(SIGTERM, request_stop);
-    fs::remove_all(output_ / "trajectories");  // those of an earlier run would pass for this one's
+    clear_trajectories();
     write_results(report_, output_ / "results.json");
 
     Progress progress(std::cerr, options_.quiet ? Progress::Mode::kSilent : Progress::mode_for(STDERR_FILENO));
@@ -185,10 +185,22 @@ class RunVerb {
     progress.end();
   }
 
+  // Trajectories of an earlier run would pass for this one's. A folder of that name that no run wrote is left alone.
+  void clear_trajectories() const {
+    const fs::path folder = output_ / "trajectories";
+    if (!fs::exists(folder)) return;
+    if (!fs::exists(output_ / "results.json")) {
+      throw UsageError(
+          fmt::format("-o {}: there is a folder trajectories/ without results.json, which no run of "
+                      "plumbline wrote; give another folder",
+                      output_.string()));
+    }
+    fs::remove_all(folder);
+  }
+
   const Scenario& scenario_of(const RunResult& run) const {
-    const auto found = std::find_if(scenarios_.cases.begin(), scenarios_.cases.end(), [&](const CaseInput& c) {
-      return c.scenario.case_name() == run.case_name;
-    });
+    const auto found = std::find_if(scenarios_.cases.begin(), scenarios_.cases.end(),
+                                    [&](const CaseInput& c) { return c.scenario.case_name() == run.case_name; });
     return found->scenario;
   }
 
@@ -219,13 +231,16 @@ class RunVerb {
 
 void add_run_verb(CLI::App& program, Action& action) {
   const auto o = std::make_shared<RunOptions>();
-  CLI::App* verb = program.add_subcommand("run", "Run scenarios on engines, measure how far off they are, write the report");
+  CLI::App* verb =
+      program.add_subcommand("run", "Run scenarios on engines, measure how far off they are, write the report");
   verb->add_option("paths", o->paths, "Scenario files or folders instead of the built-in catalogue");
-  verb->add_option("-f,--filter", o->filter,
-                   "Only runs whose name (scenario/case/engine.profile.dt=...) matches this regular expression; -REGEX "
-                   "negates; all given must hold")
+  verb->add_option(
+          "-f,--filter", o->filter,
+          "Only runs whose name (scenario/case/engine.profile.dt=...) matches this regular expression; given more "
+          "than once, any of them; -REGEX leaves out what matches")
       ->allow_extra_args(false);
-  verb->add_option("-e,--engines", o->engines, "Only these engines: bullet-f32, or bullet for all its rows")->delimiter(',');
+  verb->add_option("-e,--engines", o->engines, "Only these engines: bullet-f32, or bullet for all its rows")
+      ->delimiter(',');
   verb->add_option("--profile", o->profile, "Engine settings: default, matched or both")
       ->check(CLI::IsMember({"default", "matched", "both"}))
       ->capture_default_str();
@@ -233,11 +248,14 @@ void add_run_verb(CLI::App& program, Action& action) {
       ->allow_extra_args(false);
   verb->add_option("--dt", o->steps, "Time steps [s] instead of the scenario's: 0.02,1/240")->delimiter(',');
   verb->add_option("-j,--jobs", o->jobs, "Runs at once")->check(CLI::Range(1u, 1024u))->capture_default_str();
-  verb->add_option("--timeout", o->timeout, "Wall-clock limit of one run [s]")->check(CLI::PositiveNumber)->capture_default_str();
+  verb->add_option("--timeout", o->timeout, "Wall-clock limit of one run [s]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   verb->add_option("--repeat", o->repeat, "Every run must give the same bits this many times")
       ->check(CLI::Range(1u, 1000u))
       ->capture_default_str();
-  verb->add_option("-o,--output", o->output, "Folder for results.json, trajectories/ and report.html")->capture_default_str();
+  verb->add_option("-o,--output", o->output, "Folder for results.json, trajectories/ and report.html")
+      ->capture_default_str();
   verb->add_flag("--json", o->json, "Print results.json on standard output instead of the table");
   verb->add_flag("--no-trajectories", o->no_trajectories, "Do not write trajectory files");
   verb->add_flag("-n,--dry-run", o->dry_run, "Only print the names of the runs");

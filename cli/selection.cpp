@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <regex>
@@ -63,20 +64,19 @@ Overrides parse_parameters(const std::vector<std::string>& assignments) {
 }
 
 std::function<bool(const std::string&)> name_filter(const std::vector<std::string>& patterns) {
-  std::vector<std::pair<std::regex, bool>> rules;  // pattern, wanted
+  std::vector<std::regex> wanted, unwanted;
   for (const std::string& pattern : patterns) {
     const bool negated = pattern.starts_with('-');
     try {
-      rules.emplace_back(std::regex(negated ? pattern.substr(1) : pattern), !negated);
+      (negated ? unwanted : wanted).emplace_back(negated ? pattern.substr(1) : pattern);
     } catch (const std::regex_error& e) {
       throw UsageError(fmt::format("--filter '{}' is no regular expression: {}", pattern, e.what()));
     }
   }
-  return [rules](const std::string& name) {
-    for (const auto& [pattern, wanted] : rules) {
-      if (std::regex_search(name, pattern) != wanted) return false;
-    }
-    return true;
+  return [wanted, unwanted](const std::string& name) {
+    const auto matches = [&](const std::regex& pattern) { return std::regex_search(name, pattern); };
+    return (wanted.empty() || std::any_of(wanted.begin(), wanted.end(), matches)) &&
+           std::none_of(unwanted.begin(), unwanted.end(), matches);
   };
 }
 

@@ -17,8 +17,9 @@ std::vector<double> parse_steps(const std::vector<std::string>& texts);
 // "v0=0,10,30", "e=1/2". Throws UsageError.
 Overrides parse_parameters(const std::vector<std::string>& assignments);
 
-// A predicate over run names: each pattern is a regular expression to be found in the name; a leading '-' negates
-// it. All must hold. Throws UsageError for a pattern that is no regular expression.
+// A predicate over run names. A pattern is a regular expression to be found in the name; one with a leading '-' must
+// not be found. A name is selected when any of the former matches (or there is none) and none of the latter does.
+// Throws UsageError for a pattern that is no regular expression.
 std::function<bool(const std::string&)> name_filter(const std::vector<std::string>& patterns);
 
 // Whether "bullet" or "bullet-f32" selects the row "bullet-f32": the whole name, or its part before a '-'.

@@ -83,9 +83,9 @@ class Finder {
     return jump(k, expected_.before) > least && std::abs(jump(k, expected_.after)) > least;
   }
 
-  // Where s_i + u_i tau + a0/2 tau^2, the flight before, meets s_j - u_j (T - tau) + a1/2 (T - tau)^2, the motion after;
-  // tau is counted from t_i, T = t_j - t_i. Without accelerations the equation is linear; Newton's method starts from
-  // there and converges in a few steps, since a T is small against the jump.
+  // Where s_i + u_i tau + a0/2 tau^2, the flight before, meets s_j - u_j (T - tau) + a1/2 (T - tau)^2, the motion
+  // after; tau is counted from t_i, T = t_j - t_i. Without accelerations the equation is linear; Newton's method starts
+  // from there and converges in a few steps, since a T is small against the jump.
   double meeting_time(std::size_t i, std::size_t j) const {
     const double a0 = expected_.before, a1 = expected_.after, span = t_.time(j) - t_.time(i);
     const double ui = speed(i), uj = speed(j), gap = place(i) - place(j);

@@ -73,17 +73,20 @@ PlanarView planar_view(const Scenario& scenario) {
   bool have_y0 = false;
   for (const Body& body : scenario.bodies) {
     if (const auto* half = std::get_if<HalfSpace>(&body.shape)) {
-      if (scenario.contact && half->normal.y() != 0) return spatial("the surface of " + body.name + " is inclined out of the plane");
+      if (scenario.contact && half->normal.y() != 0)
+        return spatial("the surface of " + body.name + " is inclined out of the plane");
       continue;
     }
     if (!turns_only_about_y(body)) return spatial(body.name + " turns about an axis other than y");
     if (body.initial.v_WB.y() != 0) leaves_plane = true;
     if (!have_y0) y0 = body.initial.p_WB.y();
     have_y0 = true;
-    if (scenario.contact && body.initial.p_WB.y() != y0) return spatial(body.name + " touches others outside its own x-z plane");
+    if (scenario.contact && body.initial.p_WB.y() != y0)
+      return spatial(body.name + " touches others outside its own x-z plane");
   }
   for (const ForceLaw& law : scenario.forces) {
-    if (law.couples_out_of_plane) return spatial("the force on " + scenario.bodies[law.body].name + " couples the plane to motion along y");
+    if (law.couples_out_of_plane)
+      return spatial("the force on " + scenario.bodies[law.body].name + " couples the plane to motion along y");
   }
   // Forces along y are found by evaluating them: a law that does not couple may still push out of the plane.
   for (const ForceLaw& law : scenario.forces) {

@@ -1,5 +1,6 @@
 #include "plumbline/core/scenario.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -34,6 +35,16 @@ std::size_t Scenario::body_index(const std::string& name) const {
     if (bodies[i].name == name) return i;
   }
   throw std::out_of_range("scenario " + id + " has no body '" + name + "'");
+}
+
+void evaluate_forces(const Scenario& scenario, double t, std::span<const BodyState> states,
+                     std::span<Wrench> wrenches) {
+  std::fill(wrenches.begin(), wrenches.end(), Wrench{});
+  for (const ForceLaw& law : scenario.forces) {
+    const Wrench wrench = law.evaluate(t, states[law.body]);
+    wrenches[law.body].f_W += wrench.f_W;
+    wrenches[law.body].tau_W += wrench.tau_W;
+  }
 }
 
 }  // namespace plumbline

@@ -7,8 +7,10 @@ constexpr VerdictRow kTable[kVerdictCount] = {
     // verdict, name, mark, breaks build, infrastructure, badness, meaning
     {Verdict::kPass, "pass", '.', false, false, 0, "every gate holds"},
     {Verdict::kFail, "fail", 'F', true, false, 8, "a gate does not hold"},
-    {Verdict::kExpectedFail, "expected_fail", 'x', false, false, 3, "a gate does not hold, for a cause on the engine's list of deviations"},
-    {Verdict::kUnexpectedPass, "unexpected_pass", 'P', true, false, 7, "on the list of deviations, yet every gate holds: take it off the list"},
+    {Verdict::kExpectedFail, "expected_fail", 'x', false, false, 3,
+     "a gate does not hold, for a cause on the engine's list of deviations"},
+    {Verdict::kUnexpectedPass, "unexpected_pass", 'P', true, false, 7,
+     "on the list of deviations, yet every gate holds: take it off the list"},
     {Verdict::kUnsupported, "unsupported", '-', false, false, 1, "the engine lacks a feature that the scenario needs"},
     {Verdict::kDiverged, "diverged", 'D', true, false, 9, "a number of the trajectory is not finite"},
     {Verdict::kCrashed, "crashed", 'C', true, true, 10, "the engine's process died"},

@@ -62,8 +62,9 @@ GateTally check_gates(RunResult& result, const Comparison& c, const EngineInfo& 
     const Deviation* deviation = deviation_for(gate, c.scenario, result, deviations);
     if (row.passed && deviation != nullptr) {
       tally.unexpected = true;
-      note_first(unexpected, fmt::format("{} = {:.3g} holds its limit {:.3g} although {}:{} lists it: take it off the list",
-                                         gate.metric, row.value, limit, deviation->place.file, deviation->place.line));
+      note_first(unexpected,
+                 fmt::format("{} = {:.3g} holds its limit {:.3g} although {}:{} lists it: take it off the list",
+                             gate.metric, row.value, limit, deviation->place.file, deviation->place.line));
     } else if (!row.passed && deviation != nullptr && within(row.value, deviation->limit)) {
       tally.excused = true;
       row.deviation = deviation->why;
@@ -112,8 +113,8 @@ void assess(RunResult& result, const Comparison& comparison, const EngineInfo& e
   const GateTally tally = check_gates(result, comparison, engine, deviations);
   if (not_finite_at) {
     result.verdict = Verdict::kDiverged;
-    result.reason = fmt::format("a state is not finite at t = {:.6g} s (step {})", comparison.actual.time(*not_finite_at),
-                                *not_finite_at);
+    result.reason = fmt::format("a state is not finite at t = {:.6g} s (step {})",
+                                comparison.actual.time(*not_finite_at), *not_finite_at);
     return;
   }
   result.verdict = tally.failed       ? Verdict::kFail

@@ -166,12 +166,12 @@ class Campaign {
     const Trajectory& trajectory = outcome.recording.trajectory;
     Group& group = group_of(run);
     const bool in_plane = measured_in_plane(input.scenario, engine.info);
-    assess(result, {input.scenario, trajectory, group.expected, in_plane}, engine.info,
-           outcome.recording.not_finite_at, engine.deviations);
+    assess(result, {input.scenario, trajectory, group.expected, in_plane}, engine.info, outcome.recording.not_finite_at,
+           engine.deviations);
     if (!outcome.recording.not_finite_at && trajectory.samples() != group.expected.samples()) {
       result.verdict = Verdict::kError;
-      result.reason = fmt::format("the worker sent {} samples, {} were asked for", trajectory.samples(),
-                                  group.expected.samples());
+      result.reason =
+          fmt::format("the worker sent {} samples, {} were asked for", trajectory.samples(), group.expected.samples());
     }
     const double floor = rounding_floor(engine.info.unit_roundoff(), static_cast<double>(trajectory.samples()),
                                         magnitudes_[run.case_index].position);
@@ -208,8 +208,8 @@ class Campaign {
       for (const auto& [engine, a] : present) {
         d.engines.push_back(engines_[engine].info.name);
         for (const auto& [other, b] : present) {
-          const bool in_plane = measured_in_plane(scenario, engines_[engine].info) ||
-                                measured_in_plane(scenario, engines_[other].info);
+          const bool in_plane =
+              measured_in_plane(scenario, engines_[engine].info) || measured_in_plane(scenario, engines_[other].info);
           d.distance.push_back(engine == other ? 0.0 : position_distance(*a, *b, in_plane));
         }
       }
@@ -251,7 +251,8 @@ class Campaign {
         for (std::size_t k : runs) {
           const double dt = report_.runs[k].dt;
           const double steps = static_cast<double>(scenario.step_count(dt));
-          errors.push_back({dt, report_.runs[k].metric(metric), rounding_floor(engine.unit_roundoff(), steps, magnitude)});
+          errors.push_back(
+              {dt, report_.runs[k].metric(metric), rounding_floor(engine.unit_roundoff(), steps, magnitude)});
         }
         const Order order = observed_order(errors);
         report_.convergence.push_back(
@@ -266,9 +267,9 @@ class Campaign {
   const CampaignObserver& observer_;
   Report& report_;
   std::map<GroupKey, Group> groups_;
-  std::vector<Magnitude> magnitudes_;              // per case
-  std::map<std::size_t, std::string> different_;   // runs whose repetitions disagree
-  std::vector<std::size_t> order_;                 // plan index of each result in report_.runs
+  std::vector<Magnitude> magnitudes_;             // per case
+  std::map<std::size_t, std::string> different_;  // runs whose repetitions disagree
+  std::vector<std::size_t> order_;                // plan index of each result in report_.runs
 };
 
 }  // namespace

@@ -20,12 +20,7 @@ Recording record(const Engine& engine, const Scenario& scenario, const Settings&
   const auto start = std::chrono::steady_clock::now();
   for (std::size_t k = 0; k < steps; ++k) {
     if (!scenario.forces.empty()) {
-      std::fill(wrenches.begin(), wrenches.end(), Wrench{});
-      for (const ForceLaw& law : scenario.forces) {
-        const Wrench w = law.evaluate(trajectory.time(k), trajectory.at(k, law.body));
-        wrenches[law.body].f_W += w.f_W;
-        wrenches[law.body].tau_W += w.tau_W;
-      }
+      evaluate_forces(scenario, trajectory.time(k), trajectory.states().last(scenario.bodies.size()), wrenches);
       world->apply(wrenches);
     }
     world->step(dt);

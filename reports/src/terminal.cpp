@@ -29,7 +29,10 @@ bool locale_is_utf8() {
 ConsoleStyle console_style_for(int file_descriptor) {
   ConsoleStyle style;
   style.unicode = locale_is_utf8();
-  if (::isatty(file_descriptor) == 0) return style;
+  if (::isatty(file_descriptor) == 0) {
+    style.width = 140;  // a log or a file: room for what explains each row
+    return style;
+  }
   const char* const term = std::getenv("TERM");
   const bool dumb = term == nullptr || std::string_view(term) == "dumb";
   style.color = !dumb && !set("NO_COLOR");

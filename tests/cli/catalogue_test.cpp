@@ -57,7 +57,8 @@ TEST(Catalogue, SemiImplicitEnginesDropTheBoxByTheirSchemesError) {
   const auto rows = engines();
   int checked = 0;
   for (const json& run : results().at("runs")) {
-    if (run.at("scenario") != "particle/falling_box" || run.at("dt") != 0.02 || run.at("profile") != "matched") continue;
+    if (run.at("scenario") != "particle/falling_box" || run.at("dt") != 0.02 || run.at("profile") != "matched")
+      continue;
     const json& engine = rows.at(run.at("engine"));
     if (!engine.at("scheme").get<std::string>().starts_with("semi-implicit Euler")) continue;
     const double tolerance = engine.at("precision") == "single" ? 1e-4 : 1e-9;
@@ -73,7 +74,8 @@ TEST(Catalogue, FirstOrderSchemesConvergeWithFirstOrderOnTheShip) {
   const auto rows = engines();
   int checked = 0;
   for (const json& c : results().at("convergence")) {
-    if (!c.at("case").get<std::string>().starts_with("particle/drag_ship") || c.at("metric") != "position.max") continue;
+    if (!c.at("case").get<std::string>().starts_with("particle/drag_ship") || c.at("metric") != "position.max")
+      continue;
     if (!rows.at(c.at("engine")).at("scheme").get<std::string>().starts_with("semi-implicit Euler")) continue;
     ASSERT_TRUE(c.at("order").is_number()) << c;
     EXPECT_NEAR(c.at("order").get<double>(), 1.0, 0.02) << c;

@@ -71,10 +71,10 @@ TEST_F(Cli, HelpTeaches) {
 }
 
 TEST_F(Cli, AWrongWordIsAUsageError) {
-  for (const char* arguments : {"", "frobnicate", "run --frobnicate", "run --jobs 0", "run --dt 0", "run --dt 1/0",
-                                "run --dt -1", "run --profile best", "run -P v0", "run -P v0=x", "run -P nonsense=1",
-                                "run -e nonsense", "run -f '['", "run nonsense.toml", "compare a.json",
-                                "compare a.json b.json", "run --timeout 0"}) {
+  for (const char* arguments :
+       {"", "frobnicate", "run --frobnicate", "run --jobs 0", "run --dt 0", "run --dt 1/0", "run --dt -1",
+        "run --profile best", "run -P v0", "run -P v0=x", "run -P nonsense=1", "run -e nonsense", "run -f '['",
+        "run nonsense.toml", "compare a.json", "compare a.json b.json", "run --timeout 0"}) {
     const Outcome outcome = plumbline(arguments);
     EXPECT_EQ(outcome.code, kExitUsage) << arguments << '\n' << outcome.err;
     EXPECT_GT(outcome.err.size() + outcome.out.size(), 10u) << arguments << " says nothing";
@@ -110,20 +110,20 @@ TEST_F(Cli, DoctorTellsWhatWasFound) {
 
 TEST_F(Cli, CrashHangAndNaNCostTheirOwnCellsOnly) {
   const Outcome outcome = with_fakes(
-      "run -e fake-honest,fake-aborts,fake-hangs,fake-nan --timeout 1 -f falling_box -f 'dt=0.02' --profile matched");
+      "run -e fake-honest,fake-aborts,fake-hangs,fake-nan --timeout 1 -f falling_box --dt 0.02 --profile matched");
   EXPECT_EQ(outcome.code, kExitEngineError) << outcome.err;
   const auto results = nlohmann::json::parse(text_of(folder_ / "plumbline-results/results.json"));
   std::map<std::string, std::string> verdicts;
   for (const auto& run : results.at("runs")) verdicts[run.at("engine")] = run.at("verdict");
-  EXPECT_EQ(verdicts, (std::map<std::string, std::string>{{"fake-honest", "pass"},
-                                                          {"fake-aborts", "crashed"},
-                                                          {"fake-hangs", "timed_out"},
-                                                          {"fake-nan", "diverged"}}));
+  EXPECT_EQ(
+      verdicts,
+      (std::map<std::string, std::string>{
+          {"fake-honest", "pass"}, {"fake-aborts", "crashed"}, {"fake-hangs", "timed_out"}, {"fake-nan", "diverged"}}));
 }
 
 TEST_F(Cli, AFailedGateIsExitCodeOneAndAllSkippedIs77) {
   EXPECT_EQ(with_fakes("run -e fake-lies -f falling_box").code, kExitGateFailed);
-  EXPECT_EQ(with_fakes("run -e fake-honest -f falling_box -f dt=0.02").code, kExitPass);
+  EXPECT_EQ(with_fakes("run -e fake-honest -f falling_box --dt 0.02").code, kExitPass);
   EXPECT_EQ(with_fakes("run -e fake-honest -f box_drop").code, kExitAllSkipped);
 }
 
@@ -136,6 +136,12 @@ TEST_F(Cli, WritesTheFilesThatOthersRead) {
   EXPECT_TRUE(contains(text_of(folder_ / "out/report.html"), "falling_box"));
   const Outcome json = with_fakes("run -e fake-honest -f falling_box --dt 0.02 --json");
   EXPECT_EQ(nlohmann::json::parse(json.out).at("runs").size(), 2u);
+}
+
+TEST_F(Cli, LeavesFoldersAloneThatItDidNotWrite) {
+  write("mine/trajectories/precious.csv", "a year of measurements");
+  EXPECT_EQ(with_fakes("run -e fake-honest -f falling_box --dt 0.02 -o mine").code, kExitUsage);
+  EXPECT_EQ(text_of(folder_ / "mine/trajectories/precious.csv"), "a year of measurements");
 }
 
 TEST_F(Cli, ParametersStepsAndFiltersSelect) {
@@ -211,7 +217,7 @@ reason = "first order"
 TEST_F(Cli, CtrlCKeepsWhatThereIs) {
   // fake-hangs blocks the campaign, so that the signal surely arrives while it runs.
   const Outcome outcome = plumbline(
-      "run -e fake-honest,fake-hangs -f falling_box -f dt=0.02 --profile matched --timeout 60 & "
+      "run -e fake-honest,fake-hangs -f falling_box --dt 0.02 --profile matched --timeout 60 & "
       "pid=$!; for i in $(seq 100); do grep -qs fake-honest plumbline-results/results.json && break; sleep 0.1; done; "
       "kill -INT $pid; wait $pid",
       "PLUMBLINE_ENGINE_PATH='" PLUMBLINE_FAKES "'");

@@ -25,11 +25,16 @@ TEST(ParseParameters, ReadsListsOfValues) {
   }
 }
 
-TEST(NameFilter, AllPatternsMustHoldAndAMinusNegates) {
-  const auto selected = name_filter({"ship", "-v0=30"});
-  EXPECT_TRUE(selected("particle/drag_ship/v0=0/row.matched.dt=0.02"));
-  EXPECT_FALSE(selected("particle/drag_ship/v0=30/row.matched.dt=0.02"));
-  EXPECT_FALSE(selected("particle/falling_box/row.matched.dt=0.02"));
+TEST(NameFilter, AnyPatternSelectsAndAMinusLeavesOut) {
+  const std::string slow = "particle/drag_ship/v0=0/row.matched.dt=0.02",
+                    box = "particle/falling_box/row.matched.dt=0.02";
+  EXPECT_TRUE(name_filter({})(slow));
+  EXPECT_TRUE(name_filter({"ship"})(slow));
+  EXPECT_FALSE(name_filter({"ship"})(box));
+  EXPECT_TRUE(name_filter({"ship", "box"})(box));
+  EXPECT_TRUE(name_filter({"-v0=30"})(slow));
+  EXPECT_FALSE(name_filter({"ship", "-v0=0"})(slow));
+  EXPECT_TRUE(name_filter({"^particle/.*dt=0.02$"})(box));
   EXPECT_THROW(name_filter({"("}), UsageError);
 }
 

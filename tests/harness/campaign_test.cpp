@@ -63,11 +63,12 @@ TEST_F(CampaignTest, GivesEveryMisbehaviourItsVerdict) {
   options.jobs = 2;
   options.limit = WorkerPool::Seconds(1);
   const Report report = campaign({"fake-honest", "fake-aborts", "fake-hangs", "fake-nan", "fake-throws", "fake-lies",
-                             "fake-gains-energy", "fake-chatty"}, options);
+                                  "fake-gains-energy", "fake-chatty"},
+                                 options);
   EXPECT_EQ(report.runs.size(), 8u * 3u);
   const std::pair<const char*, Verdict> expected[] = {
-      {"fake-honest", Verdict::kPass},     {"fake-aborts", Verdict::kCrashed}, {"fake-hangs", Verdict::kTimedOut},
-      {"fake-nan", Verdict::kDiverged},    {"fake-throws", Verdict::kError},   {"fake-lies", Verdict::kFail},
+      {"fake-honest", Verdict::kPass},       {"fake-aborts", Verdict::kCrashed}, {"fake-hangs", Verdict::kTimedOut},
+      {"fake-nan", Verdict::kDiverged},      {"fake-throws", Verdict::kError},   {"fake-lies", Verdict::kFail},
       {"fake-gains-energy", Verdict::kFail}, {"fake-chatty", Verdict::kPass}};
   for (const auto& [engine, verdict] : expected) {
     const RunResult run = result(report, engine, 0.001);

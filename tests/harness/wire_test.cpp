@@ -70,7 +70,7 @@ TEST(FrameReader, RefusesWhatIsNoFrame) {
   refuses("Content-Length: 5x\r\n\r\n");
   refuses("Binary-Length: 5\r\n\r\n");
   refuses("Content-Length: 99999999999999999999999\r\n\r\n");
-  refuses("Content-Length: 17000000\r\n\r\n");               // over the limit of 16 MiB
+  refuses("Content-Length: 17000000\r\n\r\n");                   // over the limit of 16 MiB
   refuses("Content-Length: 2\r\nBinary-Length: 101\r\n\r\n{}");  // one byte more than was asked for
   refuses("Content-Length: 2\r\n\r\n{]");
   refuses(std::string(5000, 'x'));
@@ -86,8 +86,11 @@ TEST(Wire, CarriesEngineInfoWhole) {
   info.scheme = "semi-implicit Euler";
   info.velocity_offset = 0.5;
   info.features = {Feature::kFriction, Feature::kBoxBox};
-  info.settings = {{"sleeping", true, false, "", "m"}, {"erp", 0.2, 0.0, "1", "m"}, {"solver", std::string("a"), std::string("b"), "", "m"},
-                   {"cap", std::numeric_limits<double>::infinity(), -1.0, "m/s", "m"}, {"word", std::string("inf"), std::string("x"), "", "m"}};
+  info.settings = {{"sleeping", true, false, "", "m"},
+                   {"erp", 0.2, 0.0, "1", "m"},
+                   {"solver", std::string("a"), std::string("b"), "", "m"},
+                   {"cap", std::numeric_limits<double>::infinity(), -1.0, "m/s", "m"},
+                   {"word", std::string("inf"), std::string("x"), "", "m"}};
   EngineInfo got = engine_info_from_json(to_json(info));
   EXPECT_EQ(to_json(got), to_json(info));
   EXPECT_EQ(got.features, info.features);

@@ -45,8 +45,8 @@ TEST_F(WorkerPoolTest, KnowsTheEnginesOfEveryProgram) {
 }
 
 TEST_F(WorkerPoolTest, AWorkerThatDiesCostsItsOwnRunOnly) {
-  const auto outcomes = run({"fake-honest", "fake-aborts", "fake-honest", "fake-segfaults", "fake-exits", "fake-honest"},
-                            30, 2);
+  const auto outcomes =
+      run({"fake-honest", "fake-aborts", "fake-honest", "fake-segfaults", "fake-exits", "fake-honest"}, 30, 2);
   ASSERT_EQ(outcomes.size(), 6u);
   for (std::size_t i : {0u, 2u, 5u}) EXPECT_EQ(outcomes.at(i).end, End::kAnswered) << outcomes.at(i).reason;
   EXPECT_EQ(outcomes.at(1).end, End::kCrashed);
@@ -101,9 +101,9 @@ TEST_F(WorkerPoolTest, StopsHandingOutWorkWhenAsked) {
 
 TEST(WorkerPool, AProgramThatIsNoWorkerIsNamedAndLeftOut) {
   const std::string folder = PLUMBLINE_BROKEN_WORKERS "/plumbline-engine-";
-  const WorkerPool pool({folder + "garbage", folder + "greedy", folder + "quitter", folder + "absent",
-                         PLUMBLINE_FAKE_WORKER},
-                        WorkerPool::Seconds(20));
+  const WorkerPool pool(
+      {folder + "garbage", folder + "greedy", folder + "quitter", folder + "absent", PLUMBLINE_FAKE_WORKER},
+      WorkerPool::Seconds(20));
   const auto& programs = pool.programs();
   ASSERT_EQ(programs.size(), 5u);
   EXPECT_NE(programs[0].problem, "");

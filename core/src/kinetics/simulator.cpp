@@ -2,25 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
 namespace plumbline {
 namespace {
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
 // A box that settles rocks from corner to corner, infinitely often in a finite time. On parabolas every one of these
 // impacts is found; on straight lines no corner comes back, so that the series ends.
 constexpr int kParabolicImpacts = 8;
-
-// Diameter of the smallest sphere around it [m]; a half-space has no size.
-double size_of(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return 2 * sphere->radius;
-  if (const auto* box = std::get_if<Box>(&shape)) return box->size.norm();
-  return 0;
-}
 
 void rotate(BodyState& state, const Vec3& phi) {
   state.q_WB = rotation_by(phi) * state.q_WB;
@@ -91,46 +81,6 @@ std::vector<Inertness> Simulator::inertness() const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) result.push_back(inertness_of(bodies_[i], states_[i].q_WB));
   return result;
 }
-
-// Positions themselves are only known to rounding, which far from the origin is more than a part of the size.
-double Simulator::tolerance(Pair pair) const {
-  const double reach = states_[pair.a].p_WB.norm() + states_[pair.b].p_WB.norm();
-  const double size = size_of(bodies_[pair.a].shape) + size_of(bodies_[pair.b].shape);
-  return options_.contact_tolerance * size + 8 * kEpsilon * reach;
-}
-
-std::vector<Contact> Simulator::touching() const {
-  std::vector<Contact> contacts, all;
-  for (const Pair pair : pairs_) {
-    all.clear();
-    append_contacts(bodies_, states_, pair, all);
-    for (const Contact& c : all) {
-      if (c.gap <= tolerance(pair)) contacts.push_back(c);
-    }
-  }
-  return contacts;
-}
-
-// Approach speeds below this are what rounding, and the residual of apply_impulses, leave of zero. Four digits are
-// kept above kEpsilon for the several hundred operations that lead to a velocity.
-double Simulator::rounding_speed(const Contact& c) const {
-  const auto of = [&](std::size_t i) {
-    const BodyState& s = states_[i];
-    const double arm = (c.point_W - s.p_WB).norm();
-    return s.v_WB.norm() + (free_[i].linear * dt_).norm() + arm * (s.w_WB.norm() + (free_[i].angular * dt_).norm());
-  };
-  // A fixed half-space may have its origin far from the contact, but it has no velocity either.
-  return 1e4 * kEpsilon * (of(c.body_a) + of(c.body_b));
-}
-
-double Simulator::resting_speed(const Contact& c) const {
-  const auto of = [&](std::size_t i) -> Vec3 {
-    return free_[i].linear + free_[i].angular.cross(c.point_W - states_[i].p_WB);
-  };
-  return std::max(2 * std::abs(c.normal_W.dot(of(c.body_a) - of(c.body_b))) * dt_, rounding_speed(c));
-}
-
-bool Simulator::rests(const Contact& c) const { return std::abs(approach_speed(c, states_)) <= rounding_speed(c); }
 
 void Simulator::step_exact_time(double dt) {
   switch (scheme_.integrator) {
@@ -310,12 +260,7 @@ Trajectory simulate(const Scenario& scenario, const Scheme& scheme, double dt, c
   record();
   std::vector<Wrench> wrenches(scenario.bodies.size());
   for (std::size_t k = 0; k < steps; ++k) {
-    std::fill(wrenches.begin(), wrenches.end(), Wrench{});
-    for (const ForceLaw& law : scenario.forces) {
-      const Wrench wrench = law.evaluate(trajectory.time(k), simulator.states()[law.body]);
-      wrenches[law.body].f_W += wrench.f_W;
-      wrenches[law.body].tau_W += wrench.tau_W;
-    }
+    evaluate_forces(scenario, trajectory.time(k), simulator.states(), wrenches);
     simulator.apply(wrenches);
     simulator.step(dt);
     record();

@@ -30,9 +30,9 @@ std::string_view shape_name(const Shape& shape);
 struct Body {
   std::string name;
   Shape shape;
-  bool fixed = false;             // never moves; mass and inertia are not used
-  double mass = 0;                // [kg]
-  Vec3 inertia = Vec3::Zero();    // principal moments about the centre of mass along the body axes [kg m^2]
+  bool fixed = false;           // never moves; mass and inertia are not used
+  double mass = 0;              // [kg]
+  Vec3 inertia = Vec3::Zero();  // principal moments about the centre of mass along the body axes [kg m^2]
   BodyState initial;
 };
 

@@ -17,11 +17,11 @@ struct Deviation {
   std::string scenario;              // id
   Parameters parameters;             // the parameters of the case that must have these values
   std::optional<Profile> profile;
-  std::vector<double> dt;            // [s]
+  std::vector<double> dt;  // [s]
   std::string metric;
-  double limit = 0;                  // the failure is expected only while |metric| <= limit; infinity: however large
-  std::string why;                   // the cause
-  std::string link;                  // issue, manual page or minimal reproduction; may be empty
+  double limit = 0;  // the failure is expected only while |metric| <= limit; infinity: however large
+  std::string why;   // the cause
+  std::string link;  // issue, manual page or minimal reproduction; may be empty
   SourcePlace place;
 
   // Whether this entry speaks of that case, engine row, profile and dt.

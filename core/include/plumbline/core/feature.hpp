@@ -11,16 +11,16 @@
 namespace plumbline {
 
 enum class Feature : std::size_t {
-  kSpatial,            // motion in three dimensions
-  kForce,              // a force at the centre of mass, new at every step
-  kTorque,             // a torque, new at every step
-  kSphereSphere,       // contact between two moving spheres
+  kSpatial,       // motion in three dimensions
+  kForce,         // a force at the centre of mass, new at every step
+  kTorque,        // a torque, new at every step
+  kSphereSphere,  // contact between two moving spheres
   kSphereHalfSpace,
   kSphereBox,
   kBoxHalfSpace,
   kBoxBox,
-  kRestitution,        // e > 0
-  kFriction,           // mu > 0
+  kRestitution,  // e > 0
+  kFriction,     // mu > 0
   kCount,
 };
 inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::kCount);

@@ -15,9 +15,9 @@ struct SourcePlace {
 
 // What a limit may depend on besides the scenario's parameters.
 struct GateContext {
-  double dt = 0;              // [s]
-  double steps = 0;           // number of steps of the run
-  double unit_roundoff = 0;   // of the engine's arithmetic: 2^-24 or 2^-53
+  double dt = 0;             // [s]
+  double steps = 0;          // number of steps of the run
+  double unit_roundoff = 0;  // of the engine's arithmetic: 2^-24 or 2^-53
 };
 
 // |metric| <= limit passes; everything else fails, NaN included.

@@ -15,9 +15,9 @@ namespace plumbline {
 
 // Which numerical scheme the trajectory is closest to, and how much of the error it explains.
 struct Explanation {
-  std::string scheme;        // empty: nothing was compared
-  double distance = 0;       // largest distance to the scheme's own trajectory [m]
-  double share = 0;          // 1 - distance/position.max, in [0, 1]; 1 = all of the error is the scheme's
+  std::string scheme;   // empty: nothing was compared
+  double distance = 0;  // largest distance to the scheme's own trajectory [m]
+  double share = 0;     // 1 - distance/position.max, in [0, 1]; 1 = all of the error is the scheme's
 };
 
 struct CurvePoint {
@@ -34,15 +34,15 @@ struct RunResult {
   double dt = 0;  // [s]
 
   Verdict verdict = Verdict::kError;
-  std::string reason;  // one line for people, empty for a plain pass
-  std::vector<std::string> notes;  // "planar projection", ...
+  std::string reason;                                   // one line for people, empty for a plain pass
+  std::vector<std::string> notes;                       // "planar projection", ...
   std::vector<std::pair<std::string, double>> metrics;  // in table order
   std::vector<GateResult> gates;
   Explanation explanation;
   Settings settings;
-  double wall_seconds = 0;  // stepping and reading, without building the world
-  std::string messages;     // what the engine printed
-  std::string trajectory;   // path relative to the results file; empty when none was written
+  double wall_seconds = 0;        // stepping and reading, without building the world
+  std::string messages;           // what the engine printed
+  std::string trajectory;         // path relative to the results file; empty when none was written
   std::vector<CurvePoint> curve;  // error against time, thinned for pictures, maxima kept
 
   double metric(std::string_view name) const;  // NaN when absent
@@ -53,9 +53,9 @@ struct Convergence {
   std::string case_name, engine;
   Profile profile = Profile::kDefault;
   std::string metric;
-  double order = 0;             // slope of log(error) against log(dt); NaN when it means nothing
-  std::size_t points = 0;       // dt's that the fit used
-  std::string note;             // why dt's were left out or there is no order
+  double order = 0;        // slope of log(error) against log(dt); NaN when it means nothing
+  std::size_t points = 0;  // dt's that the fit used
+  std::string note;        // why dt's were left out or there is no order
 };
 
 // Who agrees with whom: largest distance [m] between engines that ran the same case, profile and dt.

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,7 +28,7 @@ struct ForceLaw {
   // itself turns the body out of the plane. A planar engine needs to know.
   bool couples_out_of_plane = false;
   bool has_torque = false;  // a torque is stated, or the force acts off the centre of mass
-  std::string text;  // as written, for people
+  std::string text;         // as written, for people
 };
 
 // Something that the reference says happens at an exact time: bodies a and b touch.
@@ -50,9 +51,9 @@ struct Scales {
 using Parameters = std::vector<std::pair<std::string, double>>;  // in the order of the file
 
 struct Scenario {
-  std::string id;      // "family/case"
-  std::string about;   // one line
-  std::string source;  // citation: slide, paper, page
+  std::string id;         // "family/case"
+  std::string about;      // one line
+  std::string source;     // citation: slide, paper, page
   Parameters parameters;  // the values of this case, all of them
   Parameters swept;       // the part of them that tells this case from its siblings
 
@@ -75,6 +76,9 @@ struct Scenario {
   std::size_t step_count(double dt) const;
   std::size_t body_index(const std::string& name) const;  // throws std::out_of_range
 };
+
+// The sum of all force laws on each body at time t [s] and these states; both spans hold one entry per body.
+void evaluate_forces(const Scenario& scenario, double t, std::span<const BodyState> states, std::span<Wrench> wrenches);
 
 // Shortest decimal that reads back as the same double: 0.02, 1e-09, 0.016666666666666666.
 std::string shortest(double value);

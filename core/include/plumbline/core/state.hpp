@@ -7,10 +7,10 @@ namespace plumbline {
 
 // State of body B's centre of mass frame in the world frame W.
 struct BodyState {
-  Vec3 p_WB = Vec3::Zero();        // position of the centre of mass [m]
-  Quat q_WB = Quat::Identity();    // attitude: x_W = q_WB * x_B, unit
-  Vec3 v_WB = Vec3::Zero();        // velocity of the centre of mass [m/s]
-  Vec3 w_WB = Vec3::Zero();        // angular velocity, expressed in W [rad/s]
+  Vec3 p_WB = Vec3::Zero();      // position of the centre of mass [m]
+  Quat q_WB = Quat::Identity();  // attitude: x_W = q_WB * x_B, unit
+  Vec3 v_WB = Vec3::Zero();      // velocity of the centre of mass [m/s]
+  Vec3 w_WB = Vec3::Zero();      // angular velocity, expressed in W [rad/s]
 };
 static_assert(sizeof(BodyState) == 13 * sizeof(double), "a trajectory is one plain block of doubles");
 

@@ -10,7 +10,7 @@ namespace plumbline {
 
 struct Recording {
   Trajectory trajectory;
-  double wall_seconds = 0;  // stepping and reading; building the world is not counted
+  double wall_seconds = 0;                   // stepping and reading; building the world is not counted
   std::optional<std::size_t> not_finite_at;  // first sample with a NaN or infinity; the trajectory ends there
 };
 

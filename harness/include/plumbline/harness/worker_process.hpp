@@ -20,7 +20,7 @@ class WorkerProcess {
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
 
-  int output() const { return output_; }   // to poll: frames
+  int output() const { return output_; }    // to poll: frames
   int messages() const { return errors_; }  // to poll: what the engine prints
   int input() const { return input_; }
   bool wants_to_write() const { return !outbox_.empty(); }

@@ -19,7 +19,7 @@ struct ConsoleStyle {
 };
 
 // What fits the stream behind a file descriptor (1: stdout): colour on a terminal unless NO_COLOR is set or TERM is
-// "dumb", Unicode where the locale is UTF-8, the terminal's width or 100.
+// "dumb", Unicode where the locale is UTF-8, the terminal's width, or 140 where there is no terminal.
 ConsoleStyle console_style_for(int file_descriptor);
 
 struct ConsoleOptions {
