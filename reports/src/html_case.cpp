@@ -55,11 +55,19 @@ std::string reason_html(const RunResult& run) {
       failed_gate(run) != nullptr && (run.verdict == Verdict::kFail || run.verdict == Verdict::kExpectedFail);
   std::string html = told_by_gates ? "" : escaped(run.reason);
   const auto add = [&](const std::string& text) { html += (html.empty() ? "" : "<br>") + escaped(text); };
+  // Several gates often fall for one cause: it is told once, behind the last of them.
+  const std::string* cause = nullptr;
+  const auto add_cause = [&] {
+    if (cause != nullptr) add("known cause: " + *cause);
+  };
   for (const GateResult& gate : run.gates) {
     if (gate.passed) continue;
-    add(gate_text(gate) +
-        (gate.deviation.empty() ? "; the limit's reason: " + gate.reason : "; known cause: " + gate.deviation));
+    const std::string* const its_cause = gate.deviation.empty() ? nullptr : &gate.deviation;
+    if (cause != nullptr && (its_cause == nullptr || *its_cause != *cause)) add_cause();
+    cause = its_cause;
+    add(gate_text(gate) + (its_cause == nullptr ? "; the limit's reason: " + gate.reason : ""));
   }
+  add_cause();
   if (html.empty()) {
     add(run.gates.empty() ? "no gate applies" : fmt::format("holds {}", counted(run.gates.size(), "gate")));
   }

@@ -18,7 +18,8 @@ std::string value_text(const SettingValue& value, const std::string& unit) {
   } else {
     text = shortest(std::get<double>(value));
   }
-  return escaped(text + (unit.empty() ? "" : " " + unit));
+  const bool pure_number = unit.empty() || unit == "1";
+  return escaped(text + (pure_number ? "" : " " + unit));
 }
 
 std::string engine_row(const EngineInfo& e) {
