@@ -36,6 +36,7 @@ double parse_step(std::string_view text) {
 
 std::vector<double> parse_steps(const std::vector<std::string>& texts) {
   std::vector<double> steps;
+  steps.reserve(texts.size());
   for (const std::string& text : texts) steps.push_back(parse_step(text));
   return steps;
 }

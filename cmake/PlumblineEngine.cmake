@@ -32,6 +32,8 @@ endfunction()
 # plumbline_skip_engine(NAME PACKAGE): says in one line that the engine is left out and how to get it.
 function(plumbline_skip_engine name package)
   set_property(GLOBAL APPEND_STRING PROPERTY PLUMBLINE_ENGINES_LEFT_OUT "${name}\t${package}\n")
+  # A worker of an earlier build cannot start without its library.
+  file(REMOVE ${PROJECT_BINARY_DIR}/${PLUMBLINE_WORKER_DIR}/plumbline-engine-${name})
   message(STATUS "Engine ${name}: left out, its library was not found (Debian package: ${package})")
 endfunction()
 

@@ -33,6 +33,13 @@ Frame run_frame(const RunRequest& request, std::size_t id) {
   return frame;
 }
 
+// What a program printed, as one line.
+std::string one_line(std::string text) {
+  text.erase(text.find_last_not_of(" \n\r\t") + 1);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 // The outcome that an answer frame describes.
 RunOutcome outcome_of(const Frame& frame, const RunRequest& request) {
   RunOutcome outcome;
@@ -103,7 +110,7 @@ WorkerPool::WorkerPool(const std::vector<std::filesystem::path>& programs, Secon
         return true;
       }
       if (worker.ended) {
-        program.problem = fmt::format("{}: {}", worker.process->end(false), worker.process->take_messages());
+        program.problem = one_line(fmt::format("{}: {}", worker.process->end(false), worker.process->take_messages()));
       } else if (Clock::now() > worker.deadline) {
         program.problem = "it did not answer in time";
       } else {
