@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,9 +21,10 @@ struct ScenarioInventory {
 };
 
 // Reads all files named or found below the folders named; without any, the catalogue of the installation. Every
-// broken file is reported before the one UsageError is thrown that stops the program.
+// broken file is reported before the one UsageError is thrown that stops the program; but a file that is only broken
+// by the overrides is left out when none of its cases is wanted: -P e=1 was meant for others.
 ScenarioInventory load_scenarios(const Installation& installation, const std::vector<std::string>& paths,
-                                 const Overrides& overrides);
+                                 const Overrides& overrides, const std::function<bool(const Scenario&)>& wanted);
 
 struct EngineInventory {
   std::unique_ptr<WorkerPool> pool;

@@ -58,7 +58,7 @@ void print(const ScenarioInventory& scenarios, const EngineInventory& engines) {
 
 int list(const ListOptions& options) {
   const Installation installation = find_installation();
-  ScenarioInventory scenarios = load_scenarios(installation, options.paths, {});
+  ScenarioInventory scenarios = load_scenarios(installation, options.paths, {}, [](const Scenario&) { return true; });
   const EngineInventory engines = load_engines(installation);
   const auto selected = name_filter(options.filter);
   for (ScenarioSummary& s : scenarios.summaries) {

@@ -108,11 +108,6 @@ class RunVerb {
     const auto selected = name_filter(options_.filter);
     const std::vector<double> steps = parse_steps(options_.steps);
     const Installation installation = find_installation();
-    scenarios_ = load_scenarios(installation, options_.paths, overrides);
-    if (!steps.empty()) {
-      for (CaseInput& c : scenarios_.cases) c.scenario.steps = steps;
-      for (ScenarioSummary& s : scenarios_.summaries) s.steps = steps;
-    }
     engines_ = load_engines(installation);
     for (const MissingEngine& m : engines_.missing) {
       fmt::print(stderr, "note: engine {} is left out: {}\n", m.name, m.reason);
@@ -120,7 +115,17 @@ class RunVerb {
     select_engines(engines_, options_.engines);
     std::vector<EngineInfo> infos;
     for (const EngineRow& row : engines_.rows) infos.push_back(row.info);
-    plan_ = plan_runs(scenarios_.cases, infos, profiles_of(options_.profile), selected);
+    const auto plan_of = [&](const std::vector<CaseInput>& cases) {
+      return plan_runs(cases, infos, profiles_of(options_.profile), selected);
+    };
+    scenarios_ = load_scenarios(installation, options_.paths, overrides, [&](const Scenario& scenario) {
+      return !plan_of({{scenario, nullptr, nullptr, ""}}).empty();
+    });
+    if (!steps.empty()) {
+      for (CaseInput& c : scenarios_.cases) c.scenario.steps = steps;
+      for (ScenarioSummary& s : scenarios_.summaries) s.steps = steps;
+    }
+    plan_ = plan_of(scenarios_.cases);
     report_.tool_version = PLUMBLINE_VERSION;
     report_.environment = describe_environment();
     report_.engines = infos;
@@ -180,10 +185,13 @@ class RunVerb {
       keeper.keep();
     };
     run_campaign(scenarios_.cases, engines_.rows, plan_, *engines_.pool,
-                 {options_.jobs, WorkerPool::Seconds(options_.timeout), options_.repeat}, observer, stop_requested,
-                 report_);
+                 {options_.jobs, WorkerPool::Seconds(options_.timeout), options_.repeat, as_in_the_files()}, observer,
+                 stop_requested, report_);
     progress.end();
   }
+
+  // Lists of deviations are made for the files' own parameters and steps.
+  bool as_in_the_files() const { return options_.parameters.empty() && options_.steps.empty(); }
 
   // Trajectories of an earlier run would pass for this one's. A folder of that name that no run wrote is left alone.
   void clear_trajectories() const {

@@ -28,20 +28,23 @@ struct Expected {
 
 Expected expected_at(const Trajectory& reference, const Event& event) {
   Expected result;
-  const double dt = reference.dt();
-  const auto before = static_cast<std::size_t>(std::floor(event.time / dt));
-  if (before + 1 >= reference.samples()) return result;
-  const Vec3 v0 = relative(reference, before, event).v;
+  // The samples on either side. One that lies on the event, but for rounding, is on neither.
+  constexpr double kMargin = 1e-6;
+  const double dt = reference.dt(), step = event.time / dt;
+  const auto before = static_cast<std::size_t>(std::max(0.0, std::floor(step - kMargin)));
+  const auto after = static_cast<std::size_t>(std::max(0.0, std::ceil(step + kMargin)));
+  if (after >= reference.samples()) return result;
+  const Vec3 v0 = relative(reference, before, event).v, v1 = relative(reference, after, event).v;
   Vec3 drift = Vec3::Zero();  // change of velocity over one step of free flight
   if (before > 0) drift = v0 - relative(reference, before - 1, event).v;
-  const Vec3 jump = relative(reference, before + 1, event).v - v0 - drift;
+  const Vec3 jump = v1 - v0 - static_cast<double>(after - before) * drift;
   result.jump = jump.norm();
   if (!(result.jump > 0)) return result;
   result.direction = jump / result.jump;
   result.before = result.direction.dot(drift) / dt;
   result.after = result.before;
-  if (before + 2 < reference.samples()) {
-    const Vec3 next = relative(reference, before + 2, event).v - relative(reference, before + 1, event).v;
+  if (after + 1 < reference.samples()) {
+    const Vec3 next = relative(reference, after + 1, event).v - v1;
     // A second event within the next step would pass for an acceleration.
     if (next.norm() < kBelongs * result.jump + drift.norm()) result.after = result.direction.dot(next) / dt;
   }

@@ -51,7 +51,7 @@ const Deviation* deviation_for(const Gate& gate, const Scenario& scenario, const
 }
 
 GateTally check_gates(RunResult& result, const Comparison& c, const EngineInfo& engine,
-                      const std::vector<Deviation>& deviations) {
+                      const KnownDeviations& deviations) {
   GateTally tally;
   std::string unexpected;
   const GateContext context{result.dt, static_cast<double>(c.scenario.step_count(result.dt)), engine.unit_roundoff()};
@@ -59,8 +59,8 @@ GateTally check_gates(RunResult& result, const Comparison& c, const EngineInfo& 
     const double limit = gate.limit(context);
     GateResult row{gate.metric, result.metric(gate.metric), limit, false, gate.reason, "", gate.place};
     row.passed = within(row.value, limit);
-    const Deviation* deviation = deviation_for(gate, c.scenario, result, deviations);
-    if (row.passed && deviation != nullptr) {
+    const Deviation* deviation = deviation_for(gate, c.scenario, result, deviations.list);
+    if (row.passed && deviation != nullptr && deviations.must_apply) {
       tally.unexpected = true;
       note_first(unexpected,
                  fmt::format("{} = {:.3g} holds its limit {:.3g} although {}:{} lists it: take it off the list",
@@ -103,7 +103,7 @@ RunResult begin_result(const Scenario& scenario, const EngineInfo& engine, Profi
 }
 
 void assess(RunResult& result, const Comparison& comparison, const EngineInfo& engine,
-            std::optional<std::size_t> not_finite_at, const std::vector<Deviation>& deviations) {
+            std::optional<std::size_t> not_finite_at, const KnownDeviations& deviations) {
   for (const Metric& metric : metrics()) {
     if (metric.applies(comparison.scenario)) {
       result.metrics.emplace_back(std::string(metric.name), metric.measure(comparison));

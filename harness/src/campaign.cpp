@@ -58,6 +58,7 @@ class Campaign {
   }
 
   void run(WorkerPool& pool, const CampaignOptions& options, const std::atomic<bool>& stop) {
+    deviations_must_apply_ = options.deviations_must_apply;
     std::vector<RunRequest> requests;
     std::vector<std::size_t> run_of;  // which planned run a request belongs to
     for (std::size_t i = 0; i < plan_.size(); ++i) {
@@ -167,7 +168,7 @@ class Campaign {
     Group& group = group_of(run);
     const bool in_plane = measured_in_plane(input.scenario, engine.info);
     assess(result, {input.scenario, trajectory, group.expected, in_plane}, engine.info, outcome.recording.not_finite_at,
-           engine.deviations);
+           {engine.deviations, deviations_must_apply_});
     if (!outcome.recording.not_finite_at && trajectory.samples() != group.expected.samples()) {
       result.verdict = Verdict::kError;
       result.reason =
@@ -266,6 +267,7 @@ class Campaign {
   const std::vector<PlannedRun>& plan_;
   const CampaignObserver& observer_;
   Report& report_;
+  bool deviations_must_apply_ = true;
   std::map<GroupKey, Group> groups_;
   std::vector<Magnitude> magnitudes_;             // per case
   std::map<std::size_t, std::string> different_;  // runs whose repetitions disagree

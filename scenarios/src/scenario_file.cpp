@@ -49,11 +49,26 @@ Scales read_scales(const Node& root, const Parameters& constants) {
           positive_number(need(table, "mass", "mass = 1.0  # kg"), constants)};
 }
 
+// Names of cases become names of folders: an id that climbs out of them must not pass.
+std::string read_id(const Node& root) {
+  const Node& node = need(root, "id", "id = \"family/case\"");
+  const std::string& id = as_text(node);
+  const auto is_word = [](std::string_view word) {
+    return !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == word.npos;
+  };
+  const std::size_t slash = id.find('/');
+  if (slash == id.npos || !is_word(std::string_view(id).substr(0, slash)) ||
+      !is_word(std::string_view(id).substr(slash + 1))) {
+    fail(node, "must be \"family/case\", each of small letters, digits and _");
+  }
+  return id;
+}
+
 Case read_case(const Node& root, const ParameterSet& set) {
   const Parameters constants = with_derived(root, set.values);
   Case result;
   Scenario& s = result.scenario;
-  s.id = as_text(need(root, "id", "id = \"family/case\""));
+  s.id = read_id(root);
   s.about = as_text(need(root, "about", "about = \"one line on what happens\""));
   s.source = as_text(need(root, "source", "source = \"slide, paper or page\""));
   s.parameters = set.values;
@@ -92,13 +107,7 @@ std::vector<Case> read_scenario_file(const std::filesystem::path& file, const Ov
   if (!stream) {
     throw ScenarioError(fmt::format("{}: cannot be read ({}); check the path", file.string(), std::strerror(errno)));
   }
-  const Node root = parse_document(text, file.string());
-  // The id is how people find the file again.
-  const Node& id = need(root, "id", "id = \"family/case\"");
-  const auto whole = std::filesystem::absolute(file).lexically_normal();
-  const std::string expected = whole.parent_path().filename().string() + "/" + whole.stem().string();
-  if (as_text(id) != expected) fail(id, fmt::format("must be \"{}\", as the file is called", expected));
-  return read_document(root, overrides);
+  return read_scenario(text, file.string(), overrides);
 }
 
 std::vector<std::filesystem::path> find_scenario_files(const std::filesystem::path& folder) {
@@ -106,11 +115,13 @@ std::vector<std::filesystem::path> find_scenario_files(const std::filesystem::pa
   if (!std::filesystem::is_directory(folder)) {
     throw ScenarioError(fmt::format("{}: is not a folder; scenarios lie in FOLDER/family/case.toml", folder.string()));
   }
-  for (const auto& family : std::filesystem::directory_iterator(folder)) {
-    if (!family.is_directory()) continue;
-    for (const auto& entry : std::filesystem::directory_iterator(family)) {
-      if (entry.is_regular_file() && entry.path().extension() == ".toml") files.push_back(entry.path());
-    }
+  const auto take = [&](const std::filesystem::directory_entry& entry) {
+    if (entry.is_regular_file() && entry.path().extension() == ".toml") files.push_back(entry.path());
+  };
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    take(entry);
+    if (!entry.is_directory()) continue;
+    for (const auto& inner : std::filesystem::directory_iterator(entry)) take(inner);
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -60,6 +60,31 @@ class Cli : public ::testing::Test {
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+const std::string kFreeFall = R"(id = "my/fall"
+about = "a fall"
+source = "test"
+duration = 1
+gravity = [0, 0, -9.81]
+[parameters]
+h = 1
+[scales]
+length = 1
+time = 1
+mass = 1
+[[body]]
+name = "ball"
+shape = { sphere = 0.1 }
+mass = 1
+[reference]
+kind = "closed_form"
+ball.z = "-9.81*t^2/2"
+ball.vz = "-9.81*t"
+[[gate]]
+metric = "position.max"
+limit = "dt*10"
+reason = "first order"
+)";
+
 TEST_F(Cli, HelpTeaches) {
   const Outcome help = plumbline("--help");
   EXPECT_EQ(help.code, kExitPass);
@@ -155,6 +180,20 @@ TEST_F(Cli, ParametersStepsAndFiltersSelect) {
   EXPECT_EQ(lines("-f particle -f -drag_ship --dt 0.02 --profile default"), 1);
 }
 
+TEST_F(Cli, AParameterThatSpoilsAnotherScenarioDoesNoHarm) {
+  write("a/ok.toml", kFreeFall);
+  std::string fragile = kFreeFall;  // its duration is negative for h < 1
+  fragile.replace(fragile.find("my/fall"), 7, "a/fragile");
+  fragile.replace(fragile.find("duration = 1"), 12, "duration = \"h - 1\"");
+  fragile.replace(fragile.find("h = 1"), 5, "h = 2");
+  write("a/fragile.toml", fragile);
+  std::string ok = kFreeFall;
+  ok.replace(ok.find("my/fall"), 7, "a/ok");
+  write("a/ok.toml", ok);
+  EXPECT_EQ(with_fakes("run a -e fake-honest -P h=0.5 -f a/ok").code, kExitPass);
+  EXPECT_EQ(with_fakes("run a -e fake-honest -P h=0.5").code, kExitUsage);
+}
+
 TEST_F(Cli, ComparesTwoResults) {
   ASSERT_EQ(with_fakes("run -e fake-honest -f falling_box -o a").code, kExitPass);
   ASSERT_EQ(with_fakes("run -e fake-honest -f falling_box -o b").code, kExitPass);
@@ -172,33 +211,11 @@ TEST_F(Cli, ComparesTwoResults) {
 }
 
 TEST_F(Cli, ABrokenScenarioFileIsNamedWithItsPlace) {
-  const std::string good = R"(id = "my/fall"
-about = "a fall"
-source = "test"
-duration = 1
-gravity = [0, 0, -9.81]
-[scales]
-length = 1
-time = 1
-mass = 1
-[[body]]
-name = "ball"
-shape = { sphere = 0.1 }
-mass = 1
-[reference]
-kind = "closed_form"
-ball.z = "-9.81*t^2/2"
-ball.vz = "-9.81*t"
-[[gate]]
-metric = "position.max"
-limit = "dt*10"
-reason = "first order"
-)";
-  write("my/fall.toml", good);
+  write("my/fall.toml", kFreeFall);
   EXPECT_EQ(with_fakes("run my/fall.toml -e fake-honest").code, kExitPass);
 
   const auto complaint = [&](const std::string& from, const std::string& to) {
-    std::string text = good;
+    std::string text = kFreeFall;
     text.replace(text.find(from), from.size(), to);
     write("my/fall.toml", text);
     const Outcome outcome = with_fakes("run my/fall.toml -e fake-honest");
@@ -208,9 +225,9 @@ reason = "first order"
   // A typing error, a wrong count, an unknown key, an undefined symbol: each with line and column.
   EXPECT_TRUE(contains(complaint("duration = 1", "duration = = 1"), "my/fall.toml:4:"));
   EXPECT_TRUE(contains(complaint("[0, 0, -9.81]", "[0, -9.81]"), "my/fall.toml:5:11"));
-  EXPECT_TRUE(contains(complaint("mass = 1\n[reference]", "mas = 1\n[reference]"), "my/fall.toml:13:"));
+  EXPECT_TRUE(contains(complaint("mass = 1\n[reference]", "mas = 1\n[reference]"), "my/fall.toml:15:"));
   const std::string undefined = complaint("dt*10", "dt*g");
-  EXPECT_TRUE(contains(undefined, "my/fall.toml:20:9")) << undefined;
+  EXPECT_TRUE(contains(undefined, "my/fall.toml:22:9")) << undefined;
   EXPECT_TRUE(contains(undefined, "'g'")) << undefined;
 }
 

@@ -79,6 +79,26 @@ TEST(EventTimes, PutTogetherWhatBrakesOverSeveralSteps) {
   EXPECT_NEAR(find_metric("event_time.max")->measure({s, actual, expected}), 0.025, 8 * kEps);
 }
 
+TEST(EventTimes, FindAnImpactThatFallsOnASample) {
+  const Scenario s = with_events({0.5});
+  const Trajectory path = sampled(mirror, 0.25, 8);
+  const auto found = event_times({s, path, path});
+  ASSERT_TRUE(found.at(0).has_value());
+  EXPECT_NEAR(*found[0], 0.5, 8 * kEps);
+}
+
+TEST(EventTimes, EndWhereABodyComesToRest) {
+  // Falls from 0.2 m and lies: a step of gravity is a tenth of the impact's speed, and the fall's acceleration must not
+  // be missed at every later step.
+  const double g = 9.81, hit = std::sqrt(0.4 / g);
+  const Path drop = [=](double t) { return t < hit ? Flight{0.2 - g * t * t / 2, -g * t} : Flight{0, 0}; };
+  const Scenario s = with_events({hit});
+  const Trajectory path = sampled(drop, 0.018, 100);
+  const auto found = event_times({s, path, path});
+  ASSERT_TRUE(found.at(0).has_value());
+  EXPECT_NEAR(*found[0], hit, 100 * kEps / 0.018);
+}
+
 TEST(EventTimes, MissAnImpactThatDoesNotHappen) {
   const Scenario s = with_events({0.5});
   const Trajectory through = sampled([](double t) { return Flight{1 - 2 * t, -2}; }, 0.2, 10);

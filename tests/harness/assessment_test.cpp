@@ -35,7 +35,7 @@ Trajectory straight(const Scenario& s, double dt, double error, Vec3 direction =
 RunResult assessed(const Scenario& s, const Trajectory& actual, const EngineInfo& engine) {
   const double dt = actual.dt();
   RunResult result = begin_result(s, engine, Profile::kMatched, dt);
-  assess(result, {s, actual, straight(s, dt, 0), measured_in_plane(s, engine)}, engine, std::nullopt, {});
+  assess(result, {s, actual, straight(s, dt, 0), measured_in_plane(s, engine)}, engine, std::nullopt, {{}, true});
   return result;
 }
 

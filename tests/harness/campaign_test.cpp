@@ -139,6 +139,13 @@ TEST_F(CampaignTest, ADeviationThatIsGoneIsAnUnexpectedPass) {
   EXPECT_EQ(result(campaign({"fake-honest"}), "fake-honest", 0.001).verdict, Verdict::kUnexpectedPass);
 }
 
+TEST_F(CampaignTest, ADeviationMayBeGoneForParametersItWasNotMadeFor) {
+  deviations_ = {deviation("fake-honest", 0.2)};
+  CampaignOptions options;
+  options.deviations_must_apply = false;
+  EXPECT_EQ(result(campaign({"fake-honest"}, options), "fake-honest", 0.001).verdict, Verdict::kPass);
+}
+
 TEST_F(CampaignTest, ADeviationDoesNotExcuseNaN) {
   deviations_ = {deviation("fake-nan", std::numeric_limits<double>::infinity())};
   EXPECT_EQ(result(campaign({"fake-nan"}), "fake-nan", 0.001).verdict, Verdict::kDiverged);

@@ -70,6 +70,11 @@ std::vector<double> free_times(const Scenario& s, double delta) {
 
 class EveryScenario : public testing::TestWithParam<std::string> {};
 
+// The id is how people find the file again.
+TEST_P(EveryScenario, IsCalledAsItsFileIs) {
+  for (const Case& c : cases_of(GetParam())) EXPECT_EQ(c.scenario.id, GetParam());
+}
+
 TEST_P(EveryScenario, SatisfiesItsEquationOfMotion) {
   for (const Case& c : cases_of(GetParam())) {
     const Scenario& s = c.scenario;
@@ -290,13 +295,28 @@ TEST(BouncingBall, LosesTheRightShareOfSpeedAndHeightAtEachImpact) {
 }
 
 TEST(BouncingBall, AgreesWithTheGeometricSeriesForAnotherRestitution) {
-  // h = 25 m, e = 0.5: impacts at t0, 2 t0, 2.5 t0 by hand, as long as the duration allows.
+  // h = 25 m, e = 0.5: impacts at t0, 2 t0, 2.5 t0 by hand.
   const auto cases = read_scenario_file(kFolder + "collision/bouncing_ball.toml", {{"h", {25}}, {"e", {0.5}}});
   const double t0 = 2.2576182049286;  // sqrt(50/9.81) by hand
-  ASSERT_EQ(cases[0].scenario.events.size(), 1U) << "2 t0 is beyond the end";
-  EXPECT_NEAR(cases[0].scenario.events[0].time, t0, 5e-13 * 10);
+  const auto& events = cases[0].scenario.events;
+  ASSERT_EQ(events.size(), 3U);
+  EXPECT_NEAR(events[0].time, t0, 5e-13 * 10);
+  EXPECT_NEAR(events[1].time, 2 * t0, 5e-13 * 10);
+  EXPECT_NEAR(events[2].time, 2.5 * t0, 5e-13 * 10);
   // Half a flight after the first impact: the apex at a quarter of the height.
   EXPECT_NEAR(cases[0].reference->at(1, 1.5 * t0).p_WB.z(), 0.1 + 6.25, 1e-11);
+}
+
+TEST(BouncingBall, WithoutLossComesBackToItsHeight) {
+  const auto cases = read_scenario_file(kFolder + "collision/bouncing_ball.toml", {{"e", {1}}});
+  const Case& c = cases[0];
+  const double t0 = c.scenario.events.at(0).time, h = parameter(c, "h");
+  ASSERT_EQ(c.scenario.events.size(), 3U);
+  EXPECT_NEAR(c.scenario.events[2].time, 5 * t0, 32 * kU * 5 * t0);
+  for (int apex : {2, 4}) {
+    EXPECT_NEAR(c.reference->at(1, apex * t0).p_WB.z(), 0.1 + h, 32 * kU * reach(c.scenario)) << apex;
+    EXPECT_NEAR(c.reference->at(1, (apex + 0.5) * t0).p_WB.z(), 0.1 + 0.75 * h, 32 * kU * reach(c.scenario)) << apex;
+  }
 }
 
 }  // namespace

@@ -64,6 +64,8 @@ const Fault kFaults[] = {
     {"SyntaxError", "duration = 2", "duration = ",
      R"x(f.toml:4:12: /: this is not TOML (Error while parsing key-value pair: expected value, saw '\n'); the form is `key = value`, with "quotes" around text and expressions)x"},
     {"WrongTypeOfId", "id = \"test/base\"", "id = 3", "f.toml:1:6: /id: must be text in quotes, is a number"},
+    {"IdThatClimbsOut", "id = \"test/base\"", "id = \"../base\"",
+     "f.toml:1:6: /id: must be \"family/case\", each of small letters, digits and _"},
     {"WrongTypeOfNumber", "mass = 1\nvelocity", "mass = true\nvelocity",
      "f.toml:20:8: /body/0/mass: must be a number or an expression in quotes"},
     {"UnknownKeyWithNearMiss", "mass = 1\nvelocity", "mas = 1\nvelocity",

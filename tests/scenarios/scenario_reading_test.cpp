@@ -278,21 +278,11 @@ class ScenarioFolder : public testing::Test {
       std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
-TEST_F(ScenarioFolder, HoldsTheFilesOfItsFamiliesSortedByPath) {
+TEST_F(ScenarioFolder, HoldsItsFilesAndThoseOfItsFamiliesSortedByPath) {
   const auto b = write("family/b.toml", ""), a = write("family/a.toml", "");
   write("family/notes.md", "");
-  write("loose.toml", "");
-  EXPECT_EQ(find_scenario_files(root_), (std::vector<std::filesystem::path>{a, b}));
-}
-
-TEST_F(ScenarioFolder, GivesAFileTheIdOfItsPath) {
-  const auto file = write("family/other.toml", file_of(kBox));
-  try {
-    read_scenario_file(file);
-    FAIL() << "no error";
-  } catch (const ScenarioError& error) {
-    EXPECT_EQ(error.what(), file.string() + ":2:6: /id: must be \"family/other\", as the file is called");
-  }
+  const auto loose = write("loose.toml", "");
+  EXPECT_EQ(find_scenario_files(root_), (std::vector<std::filesystem::path>{a, b, loose}));
 }
 
 TEST_F(ScenarioFolder, ThatIsMissingIsAnError) {

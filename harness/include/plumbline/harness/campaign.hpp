@@ -16,8 +16,9 @@ namespace plumbline {
 
 struct CampaignOptions {
   unsigned jobs = 1;
-  WorkerPool::Seconds limit{30};  // wall clock of one run [s]
-  unsigned repeat = 1;            // every run must give the same bits that many times
+  WorkerPool::Seconds limit{30};      // wall clock of one run [s]
+  unsigned repeat = 1;                // every run must give the same bits that many times
+  bool deviations_must_apply = true;  // false for parameters or steps that the lists were not made for
 };
 
 // What the campaign tells while it runs.

@@ -37,7 +37,7 @@ std::vector<Case> read_scenario(std::string_view text, const std::string& file, 
 // The same, from disk.
 std::vector<Case> read_scenario_file(const std::filesystem::path& file, const Overrides& overrides = {});
 
-// All scenario files below a folder (family/case.toml), sorted by path.
+// All scenario files of a folder (case.toml) and of the folders in it (family/case.toml), sorted by path.
 std::vector<std::filesystem::path> find_scenario_files(const std::filesystem::path& folder);
 
 }  // namespace plumbline
