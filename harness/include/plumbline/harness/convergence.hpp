@@ -24,8 +24,9 @@ struct Order {
 // Three different dt's are needed.
 Order observed_order(std::span<const ErrorAtStep> errors);
 
-// What rounding amounts to after n steps of a sum of that magnitude: each step rounds by u/2 on average, and
-// independent roundings add like a random walk. 4 u sqrt(n) |x| is twice that walk's two-sigma reach.
+// What rounding amounts to after n steps of a sum of that magnitude: each step rounds by at most u |x|, with a standard
+// deviation of u |x|/sqrt(3) if evenly spread, and independent roundings add like a random walk. 4 u sqrt(n) |x| is
+// seven standard deviations of that walk.
 double rounding_floor(double unit_roundoff, double steps, double magnitude);
 
 }  // namespace plumbline
