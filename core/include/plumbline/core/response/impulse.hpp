@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "plumbline/core/kinetics/contact.hpp"
+#include "plumbline/core/collision/contact.hpp"
 
 namespace plumbline {
 

@@ -1,4 +1,4 @@
-#include "plumbline/core/kinetics/impulse.hpp"
+#include "plumbline/core/response/impulse.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "plumbline/core/kinetics/time_of_impact.hpp"
+#include "plumbline/core/collision/time_of_impact.hpp"
 
 #include <cmath>
 

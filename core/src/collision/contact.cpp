@@ -1,8 +1,8 @@
-#include "plumbline/core/kinetics/contact.hpp"
+#include "plumbline/core/collision/contact.hpp"
 
 #include <stdexcept>
 
-#include "plumbline/core/kinetics/time_of_impact.hpp"
+#include "plumbline/core/collision/time_of_impact.hpp"
 
 namespace plumbline {
 namespace {
