@@ -1,63 +1,109 @@
 #include "plumbline/core/kinetics/scheme.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace plumbline {
 namespace {
 
-using enum Integrator;
-using enum ImpactRule;
-
-// The first kIntegrators rows hold each integrator once.
-constexpr std::size_t kIntegrators = 3;
-constexpr Scheme kCandidates[] = {
-    {kSemiImplicitEuler, kExactTime},
-    {kExplicitEuler, kExactTime},
-    {kVelocityVerlet, kExactTime},
-    {kSemiImplicitEuler, kStepStart},
-    {kExplicitEuler, kStepStart},
-    {kVelocityVerlet, kStepStart},
-    {kSemiImplicitEuler, kStepStartBeforeForces},
-    {kExplicitEuler, kStepStartBeforeForces},
-    {kVelocityVerlet, kStepStartBeforeForces},
-};
-
-std::string integrator_name(Integrator integrator) {
+std::string_view integrator_name(Integrator integrator) {
   switch (integrator) {
-    case kSemiImplicitEuler:
+    case Integrator::kSemiImplicitEuler:
       return "semi-implicit Euler";
-    case kExplicitEuler:
+    case Integrator::kExplicitEuler:
       return "explicit Euler";
-    case kVelocityVerlet:
+    case Integrator::kVelocityVerlet:
       return "velocity Verlet";
+    case Integrator::kPositionVerlet:
+      return "position Verlet";
+    case Integrator::kRungeKutta4:
+      return "Runge-Kutta 4";
   }
   return "unknown integrator";
 }
 
-std::string impact_name(ImpactRule impact) {
+std::string_view impact_name(ImpactRule impact) {
   switch (impact) {
-    case kExactTime:
+    case ImpactRule::kExactTime:
       return "impacts at their exact time";
-    case kStepStart:
+    case ImpactRule::kStepStart:
       return "impacts at the start of the step";
-    case kStepStartBeforeForces:
+    case ImpactRule::kStepStartBeforeForces:
       return "impacts at the start of the step with the speed before the forces";
   }
   return "unknown impact rule";
 }
 
+std::string assembled(const Scheme& scheme, bool with_gyroscopic_term, bool with_impacts) {
+  std::string text(integrator_name(scheme.integrator));
+  if (scheme.forces == ForceSampling::kFollowed) text += ", forces followed within the step";
+  if (with_gyroscopic_term) text += ", " + std::string(name(scheme.gyroscopic));
+  if (with_impacts) text += ", " + std::string(impact_name(scheme.impact));
+  if (scheme.substeps != 1) text += ", " + std::to_string(scheme.substeps) + " substeps";
+  return text;
+}
+
+// Whether the gyroscopic term can ever be other than zero: w x I w vanishes where all moments are the same, and where
+// nothing turns the body.
+bool gyroscopic_term_matters(const Scenario& scenario) {
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    const Body& body = scenario.bodies[i];
+    const Vec3& moments = body.inertia;
+    if (body.fixed || (moments.x() == moments.y() && moments.y() == moments.z())) continue;
+    const bool turned = std::any_of(scenario.forces.begin(), scenario.forces.end(),
+                                    [i](const ForceLaw& law) { return law.body == i && law.has_torque; });
+    if (scenario.contact || turned || !body.initial.w_WB.isZero(0)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-std::string name(const Scheme& scheme) {
-  return integrator_name(scheme.integrator) + ", " + impact_name(scheme.impact);
-}
+std::string name(const Scheme& scheme) { return assembled(scheme, true, true); }
 
 std::string name(const Scheme& scheme, const Scenario& scenario) {
-  return scenario.contact ? name(scheme) : integrator_name(scheme.integrator);
+  return assembled(scheme, gyroscopic_term_matters(scenario), scenario.contact.has_value());
 }
 
-std::span<const Scheme> candidate_schemes() { return kCandidates; }
+void require_possible(const Scheme& scheme, const Scenario& scenario) {
+  const auto refuse = [&](const std::string& why) {
+    throw std::invalid_argument(name(scheme) + " is not possible here: " + why);
+  };
+  const bool needs_followed_forces =
+      scheme.integrator == Integrator::kPositionVerlet || scheme.integrator == Integrator::kRungeKutta4;
+  if (scheme.substeps < 1) refuse("a step has at least one substep");
+  if (needs_followed_forces && scheme.forces == ForceSampling::kHeld) {
+    refuse("this integrator asks for forces within the step; follow them, or take velocity Verlet");
+  }
+  if (scheme.forces == ForceSampling::kFollowed && scheme.gyroscopic != GyroscopicTerm::kExplicit &&
+      scheme.gyroscopic != GyroscopicTerm::kNone) {
+    refuse("an integrator that follows the forces follows the gyroscopic term as one of them; choose explicit or none");
+  }
+  if (!scenario.contact) return;
+  if (scheme.forces == ForceSampling::kFollowed) refuse("bodies can touch; hold the forces over the step");
+  if (scheme.gyroscopic == GyroscopicTerm::kExact) {
+    refuse("bodies can touch, and times of impact are sought along steady turns; choose another gyroscopic term");
+  }
+}
 
-std::span<const Scheme> candidate_schemes(const Scenario& scenario) {
-  return scenario.contact ? candidate_schemes() : candidate_schemes().first(kIntegrators);
+std::vector<Scheme> candidate_schemes(const Scenario& scenario) {
+  using enum ImpactRule;
+  using enum GyroscopicTerm;
+  std::vector<ImpactRule> impacts = {kExactTime};
+  if (scenario.contact) impacts = {kExactTime, kStepStart, kStepStartBeforeForces};
+  std::vector<GyroscopicTerm> gyroscopic = {kExplicit};
+  if (gyroscopic_term_matters(scenario)) gyroscopic = {kExplicit, kNone, kImplicit};
+
+  std::vector<Scheme> schemes;
+  for (const ImpactRule impact : impacts) {
+    for (const GyroscopicTerm term : gyroscopic) {
+      for (const Integrator integrator :
+           {Integrator::kSemiImplicitEuler, Integrator::kExplicitEuler, Integrator::kVelocityVerlet}) {
+        schemes.push_back({integrator, impact, term});
+      }
+    }
+  }
+  return schemes;
 }
 
 }  // namespace plumbline

@@ -33,6 +33,12 @@ Simulator::Simulator(const Scenario& scenario, const Scheme& scheme, const Simul
       bodies_(scenario.bodies),
       material_(scenario.contact),
       wrenches_(scenario.bodies.size()) {
+  require_possible(scheme, scenario);
+  if (scheme.forces == ForceSampling::kFollowed) {
+    throw std::invalid_argument(name(scheme) +
+                                ": forces come to the simulator from outside, a step at a time, and are " +
+                                "held over it; simulate() can follow the force laws of a scenario");
+  }
   for (const Body& body : bodies_) {
     if (!body.fixed && !(body.mass > 0)) {
       throw std::invalid_argument("body '" + body.name + "' moves and needs a mass > 0; give it one or make it fixed");
@@ -52,26 +58,42 @@ void Simulator::apply(std::span<const Wrench> wrenches) {
 
 void Simulator::step(double dt) {
   if (!(dt > 0)) throw std::invalid_argument("a step of " + std::to_string(dt) + " s: it must be > 0");
-  dt_ = dt;
-  free_ = free_accelerations();
-  std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
-  if (scheme_.impact == ImpactRule::kExactTime) {
-    step_exact_time(dt);
-  } else {
-    step_from_start(dt);
+  dt_ = dt / scheme_.substeps;
+  for (int k = 0; k < scheme_.substeps; ++k) {
+    free_ = free_accelerations();
+    if (scheme_.impact == ImpactRule::kExactTime) {
+      step_exact_time(dt_);
+    } else {
+      step_from_start(dt_);
+    }
   }
+  std::fill(wrenches_.begin(), wrenches_.end(), Wrench{});
 }
 
-// m a = m g + f and I alpha = tau - w x I w.
+// m a = m g + f and I alpha = tau - w x I w, the last term in the scheme's way.
 Simulator::Accelerations Simulator::free_accelerations() const {
   Accelerations result(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (bodies_[i].fixed) continue;
     const Vec3& w = states_[i].w_WB;
-    const Mat3 inertia_W = inertia_in_world(bodies_[i], states_[i].q_WB);
+    const Quat& q_WB = states_[i].q_WB;
+    const Mat3 inverse_inertia_W = inertness_of(bodies_[i], q_WB).inverse_inertia_W;
     result[i].linear = gravity_ + wrenches_[i].f_W / bodies_[i].mass;
-    result[i].angular =
-        inertness_of(bodies_[i], states_[i].q_WB).inverse_inertia_W * (wrenches_[i].tau_W - w.cross(inertia_W * w));
+    switch (scheme_.gyroscopic) {
+      case GyroscopicTerm::kExplicit:
+        result[i].angular = inverse_inertia_W * (wrenches_[i].tau_W - w.cross(inertia_in_world(bodies_[i], q_WB) * w));
+        break;
+      case GyroscopicTerm::kNone:
+      case GyroscopicTerm::kExact:  // move() turns the body
+        result[i].angular = inverse_inertia_W * wrenches_[i].tau_W;
+        break;
+      case GyroscopicTerm::kImplicit: {
+        const Vec3 w_B = q_WB.conjugate() * w;
+        const Vec3 change_B = gyroscopic_step(scheme_.gyroscopic, bodies_[i].inertia, w_B, dt_) - w_B;
+        result[i].angular = inverse_inertia_W * wrenches_[i].tau_W + q_WB * change_B / dt_;
+        break;
+      }
+    }
   }
   return result;
 }
@@ -95,6 +117,9 @@ void Simulator::step_exact_time(double dt) {
     case Integrator::kVelocityVerlet:
       fly(dt, true);
       break;
+    case Integrator::kPositionVerlet:
+    case Integrator::kRungeKutta4:
+      throw std::logic_error(name(scheme_) + " follows its forces and is not stepped here");
   }
 }
 
@@ -207,9 +232,16 @@ void Simulator::move(const Accelerations& held, double horizon, double duration)
     if (bodies_[i].fixed) continue;
     BodyState& s = states_[i];
     s.p_WB += s.v_WB * duration + 0.5 * duration * duration * held[i].linear;
-    rotate(s, motion(i, held, horizon).start.w_WB * duration);
+    if (scheme_.gyroscopic == GyroscopicTerm::kExact) {
+      // Half of the torque's impulse before the free rotation and half behind it keep the step of second order.
+      s.w_WB += 0.5 * duration * held[i].angular;
+      turn_freely(bodies_[i].inertia, duration, s);
+      s.w_WB += 0.5 * duration * held[i].angular;
+    } else {
+      rotate(s, motion(i, held, horizon).start.w_WB * duration);
+      s.w_WB += held[i].angular * duration;
+    }
     s.v_WB += held[i].linear * duration;
-    s.w_WB += held[i].angular * duration;
   }
 }
 

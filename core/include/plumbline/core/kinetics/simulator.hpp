@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "plumbline/core/feature.hpp"
 #include "plumbline/core/collision/contact.hpp"
-#include "plumbline/core/response/impulse.hpp"
-#include "plumbline/core/kinetics/scheme.hpp"
 #include "plumbline/core/collision/time_of_impact.hpp"
+#include "plumbline/core/feature.hpp"
+#include "plumbline/core/kinetics/scheme.hpp"
+#include "plumbline/core/response/impulse.hpp"
 #include "plumbline/core/trajectory.hpp"
 
 namespace plumbline {
