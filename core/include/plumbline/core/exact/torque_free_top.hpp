@@ -21,7 +21,7 @@
 // (m = 1) the functions are hyperbolic and the body flips once, in infinite time. All of these are covered.
 #pragma once
 
-#include "plumbline/core/exact/jacobi_elliptic.hpp"
+#include "plumbline/core/exact/elliptic_integral.hpp"
 #include "plumbline/core/state.hpp"
 
 namespace plumbline {
@@ -44,19 +44,18 @@ class TorqueFreeTop {
   double parameter() const { return modulus_.m; }  // m = k^2
 
  private:
-  Vec3 rate_P(const JacobiElliptic& j) const;
   Quat attitude_of_momentum(const Vec3& w_P) const;
 
   BodyState initial_;
-  Quat q_BP_ = Quat::Identity();  // principal axes ordered as above, right-handed
-  Vec3 inertia_P_ = Vec3::Ones();
-  Vec3 amplitude_ = Vec3::Zero();  // a1, +-a2, +-a3 [rad/s]
-  double lambda_ = 0;
-  EllipticModulus modulus_;
-  double u0_ = 0, pi0_ = 0;
-  double momentum_ = 0;           // |L| [kg m^2/s]
-  double n_ = 0;                  // characteristic of Pi
-  Quat q_WL_ = Quat::Identity();  // the frame of L that psi is counted in
+  Quat q_BP_ = Quat::Identity();           // principal axes P ordered as above, right-handed
+  Vec3 inertia_P_ = Vec3::Ones();          // I1, I2, I3 [kg m^2]
+  Vec3 amplitude_ = Vec3::Zero();          // a1, +-a2, +-a3 [rad/s]
+  double lambda_ = 0;                      // [rad/s]
+  double momentum_ = 0;                    // |L| [kg m^2/s]
+  EllipticModulus modulus_;                // m
+  EllipticCharacteristic characteristic_;  // n
+  double u0_ = 0, pi0_ = 0;                // u and Pi at t = 0
+  Quat q_WL_ = Quat::Identity();           // frame of L (its z) in which psi is counted
 };
 
 }  // namespace plumbline
