@@ -56,7 +56,6 @@ double carlson_rd(double x, double y, double z) { return carlson_rj(x, y, z, z);
 
 double carlson_rj(double x, double y, double z, double p) {
   if (!(in_range(x, y, z) && p > 0 && std::isfinite(p))) return kNaN;
-  double delta = (p - x) * (p - y) * (p - z);
   double power = 1;  // 4^-k after k duplications
   double sum = 0;
   double mean = (x + y + z + 2 * p) / 5;
@@ -64,14 +63,14 @@ double carlson_rj(double x, double y, double z, double p) {
       !(std::max({std::abs(x - mean), std::abs(y - mean), std::abs(z - mean), std::abs(p - mean)}) < kSpread6 * mean)) {
     const double a = std::sqrt(x), b = std::sqrt(y), c = std::sqrt(z), q = std::sqrt(p);
     const double d = (q + a) * (q + b) * (q + c);
-    sum += power / d * carlson_rc(1, 1 + delta / (d * d));
     const double shift = a * b + b * c + c * a;
+    // Carlson's 1 + e with e = (q - a)(q - b)(q - c)/d, which would cancel for e near -1.
+    sum += power / d * carlson_rc(1, 2 * q * (p + shift) / d);
     x = 0.25 * (x + shift);
     y = 0.25 * (y + shift);
     z = 0.25 * (z + shift);
     p = 0.25 * (p + shift);
     mean = (x + y + z + 2 * p) / 5;
-    delta /= 64;
     power /= 4;
   }
   const double dx = 1 - x / mean, dy = 1 - y / mean, dz = 1 - z / mean, dp = -0.5 * (dx + dy + dz);

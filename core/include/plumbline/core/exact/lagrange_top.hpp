@@ -21,7 +21,9 @@
 // So no attitude is singular: upright, hanging, through the vertical, a plane pendulum (w3 = 0) are all covered.
 #pragma once
 
-#include "plumbline/core/exact/jacobi_elliptic.hpp"
+#include <complex>
+
+#include "plumbline/core/exact/elliptic_integral.hpp"
 #include "plumbline/core/state.hpp"
 
 namespace plumbline {
@@ -49,17 +51,44 @@ class LagrangeTop {
   // near m = 1, where the motion itself magnifies the rounding of the initial state by that factor.
   BodyState at(double t) const;
 
-  // Time from lowest to lowest attitude [s]: 2 K/lambda. Infinite where the top only approaches the vertical.
+  // Time from one lowest attitude to the next [s]: 2 K/lambda. Infinite where the top only approaches the vertical,
+  // and where it stands or hangs still.
   double nutation_period() const;
-  double lowest_cosine() const;        // u1
-  double highest_cosine() const;       // u2
-  double spin() const { return w3_; }  // w3, a constant of the motion [rad/s]
+  double lowest_cosine() const { return lowest_cosine_; }    // u1
+  double highest_cosine() const { return highest_cosine_; }  // u2
+  double spin() const { return w3_; }                        // w3, a constant of the motion [rad/s]
   const Vec3& pivot_W() const { return pivot_W_; }
 
  private:
-  TopBody top_;
+  using Complex = std::complex<double>;
+  // One of Klein's parameters, r exp(i angle): r = cos(theta/2) with angle (phi + psi)/2, or r = sin(theta/2) with
+  // (phi - psi)/2. r^2 = (low cn^2 + high sn^2)/2. Where it goes through 0, r changes its sign instead of the angle.
+  struct Klein {
+    enum class Root { kPositive, kSignOfSn, kSignOfCn };
+    Root root = Root::kPositive;
+    double low = 0, high = 0;  // 1 +- u1, 1 +- u2
+    double drift = 0;          // constant part of the angle's rate [rad/s]
+    double pull = 0;           // (b +- a)/2: the rest of the rate is pull/(1 +- u) [rad/s]
+    EllipticCharacteristic characteristic;
+    Complex phase = 1;  // makes it the given one at t = 0
+  };
+  struct Motion {
+    Complex value, rate;
+  };
+  void prepare(Klein& part, const Motion& initial) const;
+  Motion motion(const Klein& part, const JacobiElliptic& j, double t) const;
+  BodyState state(const Quat& q_WP, const Vec3& w_W) const;
+
   Vec3 pivot_W_ = Vec3::Zero();
+  double arm_ = 0;                // l [m]
+  Quat q_BP_ = Quat::Identity();  // frame P of the body with z along the arm
+  Quat q_WP0_ = Quat::Identity();
   double w3_ = 0;
+  double lowest_cosine_ = 0, highest_cosine_ = 0;
+  double lambda_ = 0;  // [rad/s], 0 when the axis is vertical and stays so
+  double v0_ = 0;
+  EllipticModulus modulus_;
+  Klein cos_half_, sin_half_;
 };
 
 }  // namespace plumbline
