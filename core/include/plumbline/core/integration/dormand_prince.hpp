@@ -29,6 +29,7 @@
 // Kahan, Comm. ACM 8 (1965) 40. Nothing here allocates after start(), for fixed-size and dynamic vectors.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <cstddef>
