@@ -9,6 +9,12 @@ std::string_view shape_name(const Shape& shape) {
   return kNames[shape.index()];
 }
 
+void require_mass(const Body& body) {
+  if (!body.fixed && !(body.mass > 0)) {
+    throw std::invalid_argument("body '" + body.name + "' moves and needs a mass > 0; give it one or make it fixed");
+  }
+}
+
 Vec3 solid_inertia(const Shape& shape, double mass) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     return Vec3::Constant(0.4 * mass * sphere->radius * sphere->radius);

@@ -4,9 +4,8 @@
 #include <stdexcept>
 
 namespace plumbline {
-namespace {
 
-std::string_view integrator_name(Integrator integrator) {
+std::string_view name(Integrator integrator) {
   switch (integrator) {
     case Integrator::kSemiImplicitEuler:
       return "semi-implicit Euler";
@@ -18,9 +17,13 @@ std::string_view integrator_name(Integrator integrator) {
       return "position Verlet";
     case Integrator::kRungeKutta4:
       return "Runge-Kutta 4";
+    case Integrator::kDormandPrince8:
+      return "Dormand-Prince 8(5,3)";
   }
   return "unknown integrator";
 }
+
+namespace {
 
 std::string_view impact_name(ImpactRule impact) {
   switch (impact) {
@@ -35,7 +38,7 @@ std::string_view impact_name(ImpactRule impact) {
 }
 
 std::string assembled(const Scheme& scheme, bool with_gyroscopic_term, bool with_impacts) {
-  std::string text(integrator_name(scheme.integrator));
+  std::string text(name(scheme.integrator));
   if (scheme.forces == ForceSampling::kFollowed) text += ", forces followed within the step";
   if (with_gyroscopic_term) text += ", " + std::string(name(scheme.gyroscopic));
   if (with_impacts) text += ", " + std::string(impact_name(scheme.impact));
@@ -69,8 +72,9 @@ void require_possible(const Scheme& scheme, const Scenario& scenario) {
   const auto refuse = [&](const std::string& why) {
     throw std::invalid_argument(name(scheme) + " is not possible here: " + why);
   };
-  const bool needs_followed_forces =
-      scheme.integrator == Integrator::kPositionVerlet || scheme.integrator == Integrator::kRungeKutta4;
+  const bool needs_followed_forces = scheme.integrator == Integrator::kPositionVerlet ||
+                                     scheme.integrator == Integrator::kRungeKutta4 ||
+                                     scheme.integrator == Integrator::kDormandPrince8;
   if (scheme.substeps < 1) refuse("a step has at least one substep");
   if (needs_followed_forces && scheme.forces == ForceSampling::kHeld) {
     refuse("this integrator asks for forces within the step; follow them, or take velocity Verlet");

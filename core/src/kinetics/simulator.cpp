@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "plumbline/core/kinetics/force_following.hpp"
+
 namespace plumbline {
 namespace {
 
@@ -40,9 +42,7 @@ Simulator::Simulator(const Scenario& scenario, const Scheme& scheme, const Simul
                                 "held over it; simulate() can follow the force laws of a scenario");
   }
   for (const Body& body : bodies_) {
-    if (!body.fixed && !(body.mass > 0)) {
-      throw std::invalid_argument("body '" + body.name + "' moves and needs a mass > 0; give it one or make it fixed");
-    }
+    require_mass(body);
     states_.push_back(body.initial);
   }
   if (material_) pairs_ = contact_pairs(bodies_);
@@ -119,6 +119,7 @@ void Simulator::step_exact_time(double dt) {
       break;
     case Integrator::kPositionVerlet:
     case Integrator::kRungeKutta4:
+    case Integrator::kDormandPrince8:
       throw std::logic_error(name(scheme_) + " follows its forces and is not stepped here");
   }
 }
@@ -281,6 +282,7 @@ void Simulator::step_from_start(double dt) {
 }
 
 Trajectory simulate(const Scenario& scenario, const Scheme& scheme, double dt, const SimulatorOptions& options) {
+  if (scheme.forces == ForceSampling::kFollowed) return follow_forces(scenario, scheme, dt);
   Simulator simulator(scenario, scheme, options);
   const std::size_t steps = scenario.step_count(dt);
   Trajectory trajectory(dt, scenario.bodies.size());

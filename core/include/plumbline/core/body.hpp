@@ -36,6 +36,9 @@ struct Body {
   BodyState initial;
 };
 
+// Throws std::invalid_argument, naming the body, when it moves and has no mass > 0.
+void require_mass(const Body& body);
+
 // Principal moments [kg m^2] about the centre of mass of a homogeneous solid of that shape and mass [kg]:
 // sphere 2/5 m r^2; box m/12 (b^2 + c^2) and its permutations. A half-space has none: throws std::invalid_argument.
 Vec3 solid_inertia(const Shape& shape, double mass);

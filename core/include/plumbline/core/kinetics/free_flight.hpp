@@ -1,7 +1,7 @@
 // Many rigid bodies in free flight at once: the fast path of the smooth half of the simulator.
 //
-// The same scheme as Simulator's semi-implicit Euler with the explicit gyroscopic term, for bodies that feel gravity and
-// nothing else, and the same result to rounding. Three things make it fast:
+// The same scheme as Simulator's semi-implicit Euler with the explicit gyroscopic term, for bodies that feel gravity
+// and nothing else, and the same result to rounding. Three things make it fast:
 //
 // - one array per number instead of one record per body, so that a vector unit advances 2, 4 or 8 bodies at once;
 // - the angular velocity kept in the body frame, where Euler's equation needs no rotation: w' = w + h c (w x w), with
@@ -25,14 +25,15 @@ class FreeFlight {
   FreeFlight(std::span<const Body> bodies, const Vec3& gravity_W);
 
   std::size_t size() const { return size_; }
-  // Advances all bodies by `steps` steps of dt > 0 [s]. Several steps at once are faster than as many calls: bodies do not
-  // know each other, so a few hundred of them go through all steps while they are in the nearest cache.
+  // Advances all bodies by `steps` steps of dt > 0 [s]. Several steps at once are faster than as many calls: bodies do
+  // not know each other, so a few hundred of them go through all steps while they are in the nearest cache.
   void step(double dt, std::size_t steps = 1);
   // Throws std::invalid_argument unless there is room for exactly size() states.
   void read(std::span<BodyState> states) const;
 
  private:
-  // Rows of the table of numbers: position, attitude (x y z w), velocity, angular velocity in B, gyroscopic coefficients.
+  // Rows of the table of numbers: position, attitude (x y z w), velocity, angular velocity in B, gyroscopic
+  // coefficients.
   enum Row : std::size_t { kP = 0, kQ = 3, kV = 7, kW = 10, kC = 13, kRows = 16 };
   std::array<double*, kRows> rows();
 

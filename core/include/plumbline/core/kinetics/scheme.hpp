@@ -13,20 +13,33 @@
 //    part of the velocity above: the old one, the new one, or for Verlet their mean.
 // 2. The gyroscopic term: kinetics/gyroscopic.hpp.
 // 3. The forces: held over the step, as an engine must that is handed them from outside, or followed within it.
-//    Position Verlet and Runge-Kutta need forces that they can follow; velocity Verlet is of second order only then.
+//    Position Verlet, Runge-Kutta and Dormand-Prince need forces that they can follow, and velocity Verlet is of second
+//    order only then: kinetics/force_following.hpp.
 // 4. The impact rule: when bodies that meet get their impulse.
 // 5. Substeps: a step of dt is gone through as n steps of dt/n under the same held forces.
 #pragma once
 
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "plumbline/core/kinetics/gyroscopic.hpp"
 #include "plumbline/core/scenario.hpp"
 
 namespace plumbline {
 
-enum class Integrator { kSemiImplicitEuler, kExplicitEuler, kVelocityVerlet, kPositionVerlet, kRungeKutta4 };
+enum class Integrator {
+  kSemiImplicitEuler,
+  kExplicitEuler,
+  kVelocityVerlet,
+  kPositionVerlet,
+  kRungeKutta4,
+  kDormandPrince8
+};
+
+// "semi-implicit Euler": the name it also has in the table of all integrators, integration/stepper_table.hpp.
+std::string_view name(Integrator integrator);
 
 // Where a step takes its forces from.
 enum class ForceSampling {

@@ -98,7 +98,7 @@ class Simulator {
 };
 
 // A whole run, initial state included: scenario.step_count(dt) steps, the force laws evaluated at the start of each
-// on the states of that moment. Throws as Simulator does.
+// on the states of that moment, or followed within it if the scheme says so. Throws as Simulator does.
 Trajectory simulate(const Scenario& scenario, const Scheme& scheme, double dt, const SimulatorOptions& options = {});
 
 }  // namespace plumbline
