@@ -15,8 +15,8 @@ constexpr double kSpread6 = 1e-3;
 constexpr double kSpread8 = 5e-3;
 
 bool in_range(double x, double y, double z) {
-  const double least = std::min({x, y, z});
-  return least >= 0 && x + y + z - least - std::max({x, y, z}) > 0 && std::isfinite(x + y + z);
+  const int zeros = (x == 0 ? 1 : 0) + (y == 0 ? 1 : 0) + (z == 0 ? 1 : 0);
+  return x >= 0 && y >= 0 && z >= 0 && zeros <= 1 && std::isfinite(x + y + z);
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ void refine(double edge, double product, double others, double& d, double& dista
   constexpr double kDigitLost = 0.1;
   distance = edge - d;
   if (distance > kDigitLost * edge || !(others > 0)) return;
-  distance = product / others;
+  distance = std::min(edge, product / others);
   d = edge - distance;
 }
 
