@@ -6,6 +6,7 @@
 #include <string>
 
 #include "plumbline/core/kinetics/force_following.hpp"
+#include "plumbline/core/mass/newton_euler.hpp"
 
 namespace plumbline {
 namespace {
@@ -81,7 +82,8 @@ Simulator::Accelerations Simulator::free_accelerations() const {
     result[i].linear = gravity_ + wrenches_[i].f_W / bodies_[i].mass;
     switch (scheme_.gyroscopic) {
       case GyroscopicTerm::kExplicit:
-        result[i].angular = inverse_inertia_W * (wrenches_[i].tau_W - w.cross(inertia_in_world(bodies_[i], q_WB) * w));
+        result[i].angular =
+            angular_acceleration(inertia_in_world(bodies_[i], q_WB), inverse_inertia_W, w, wrenches_[i].tau_W);
         break;
       case GyroscopicTerm::kNone:
       case GyroscopicTerm::kExact:  // move() turns the body
