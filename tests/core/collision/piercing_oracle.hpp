@@ -4,9 +4,9 @@
 // point is the largest of its heights over all face planes; along an edge that is a maximum of linear functions, whose
 // minimum is found by intersecting lines. No separating axis, no product of edges, no derivative is used.
 //
-// The first time is found by halving: the least height q(t) cannot change faster than the bodies move, so an interval of
-// length h is free if q(middle) > speed * h/2; others are halved, the earlier half first, down to `resolution`. Where q
-// has changed its sign over one of that length, halving it further by sign gives the time to the last bit.
+// The first time is found by halving: the least height q(t) cannot change faster than the bodies move, so an interval
+// of length h is free if q(middle) > speed * h/2; others are halved, the earlier half first, down to `resolution`.
+// Where q has changed its sign over one of that length, halving it further by sign gives the time to the last bit.
 #pragma once
 
 #include <algorithm>

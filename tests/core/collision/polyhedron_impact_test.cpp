@@ -18,7 +18,7 @@ constexpr int kScenes = 1000;
 constexpr int kScenes = 10000;
 #endif
 
-constexpr double kHorizon = 2;                 // [s]
+constexpr double kHorizon = 2;                      // [s]
 constexpr double kResolution = kHorizon * 0x1p-36;  // of the oracle [s]: 3e-11
 
 struct Scene {
@@ -94,9 +94,8 @@ TEST(PolyhedronImpact, AgreesWithPiercingOnRandomPairs) {
       ++at_once;
       continue;
     }
-    ASSERT_EQ(found.has_value(), expected.has_value())
-        << "scene " << k << ": " << (found ? found->time : *expected) << " height "
-        << oracle.height(found ? found->time : *expected);
+    ASSERT_EQ(found.has_value(), expected.has_value()) << "scene " << k << ": " << (found ? found->time : *expected)
+                                                       << " height " << oracle.height(found ? found->time : *expected);
     if (!found) {
       ++misses;
       grazing_misses += grazing ? 1 : 0;
@@ -113,14 +112,15 @@ TEST(PolyhedronImpact, AgreesWithPiercingOnRandomPairs) {
     const double error = std::abs(found->time - *expected);
     const double before = 1e-6;  // [s]
     const double height_rate = (oracle.height(found->time - before) - oracle.height(found->time)) / before;
-    EXPECT_LE(error, allowed(s, approach, height_rate)) << "height rate " << height_rate << "scene " << k << ", approach " << approach;
+    EXPECT_LE(error, allowed(s, approach, height_rate))
+        << "height rate " << height_rate << "scene " << k << ", approach " << approach;
     worst = std::max(worst, error);
     if (approach > 0.01) worst_of_fast = std::max(worst_of_fast, error);
   }
   EXPECT_LE(worst_of_fast, 1e-10);
   RecordProperty("worst", std::to_string(worst * 1e15) + " fs");
-  printf("hits %d misses %d at once %d kinds %d %d %d grazing %d %d worst %g fast %g\n", hits, misses, at_once, by_kind[0], by_kind[1],
-         by_kind[2], grazing_hits, grazing_misses, worst, worst_of_fast);
+  printf("hits %d misses %d at once %d kinds %d %d %d grazing %d %d worst %g fast %g\n", hits, misses, at_once,
+         by_kind[0], by_kind[1], by_kind[2], grazing_hits, grazing_misses, worst, worst_of_fast);
 }
 
 }  // namespace
