@@ -5,26 +5,26 @@
 #include <string>
 
 #include "plumbline/core/integration/stepper_table.hpp"
+#include "plumbline/core/mass/newton_euler.hpp"
 #include "plumbline/core/response/impulse.hpp"
 
 namespace plumbline {
 
 AccelerationField acceleration_field(const Scenario& scenario, GyroscopicTerm gyroscopic) {
-  const double share = gyroscopic == GyroscopicTerm::kNone ? 0 : 1;
-  return [scenario, share, wrenches = std::vector<Wrench>(scenario.bodies.size())](
+  return [scenario, gyroscopic, wrenches = std::vector<Wrench>(scenario.bodies.size())](
              double t, std::span<const BodyState> states, std::span<Acceleration> accelerations) mutable {
     evaluate_forces(scenario, t, states, wrenches);
     for (std::size_t i = 0; i < states.size(); ++i) {
       const Body& body = scenario.bodies[i];
-      if (body.fixed) {
-        accelerations[i] = {};
-        continue;
-      }
+      accelerations[i] = {};
+      if (body.fixed) continue;
       const Quat& q_WB = states[i].q_WB;
-      const Vec3& w = states[i].w_WB;
+      const Mat3 inverse_inertia_W = inertness_of(body, q_WB).inverse_inertia_W;
       accelerations[i].linear = scenario.gravity + wrenches[i].f_W / body.mass;
-      accelerations[i].angular = inertness_of(body, q_WB).inverse_inertia_W *
-                                 (wrenches[i].tau_W - share * w.cross(inertia_in_world(body, q_WB) * w));
+      accelerations[i].angular = gyroscopic == GyroscopicTerm::kNone
+                                     ? Vec3(inverse_inertia_W * wrenches[i].tau_W)
+                                     : angular_acceleration(inertia_in_world(body, q_WB), inverse_inertia_W,
+                                                            states[i].w_WB, wrenches[i].tau_W);
     }
   };
 }
