@@ -35,7 +35,8 @@ std::optional<double> straight_time(const Vec3& x, const Vec3& v, const Vec3& ha
   if (!std::isfinite(start.value) || !v.allFinite()) return std::nullopt;
   if (start.value <= radius) return start.gradient.dot(v) < 0 ? std::optional(0.0) : std::nullopt;
 
-  std::array<double, 7> ends;  // where a coordinate passes a face of the box, and the horizon
+  std::array<double, 7> ends;  // where a coordinate passes a face of the box; the horizon for all that do not
+  ends.fill(horizon);
   std::size_t count = 0;
   for (int k = 0; k < 3; ++k) {
     for (const double side : {-half(k), half(k)}) {
@@ -43,13 +44,12 @@ std::optional<double> straight_time(const Vec3& x, const Vec3& v, const Vec3& ha
       if (t > 0 && t < horizon) ends[count++] = t;
     }
   }
-  std::sort(ends.begin(), ends.begin() + static_cast<std::ptrdiff_t>(count));
-  ends[count++] = horizon;
+  std::sort(ends.begin(), ends.end());
 
   double from = 0;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (const double end : ends) {
     // Only the coordinates that are outside all through this piece count; a straight distance |d + v t| is left.
-    const Vec3 middle = x + 0.5 * (from + ends[k]) * v;
+    const Vec3 middle = x + 0.5 * (from + end) * v;
     Vec3 d = Vec3::Zero(), rate = Vec3::Zero();
     for (int i = 0; i < 3; ++i) {
       if (std::abs(middle(i)) <= half(i)) continue;
@@ -61,14 +61,14 @@ std::optional<double> straight_time(const Vec3& x, const Vec3& v, const Vec3& ha
     const double clear = (d.norm() - radius) * (d.norm() + radius);
     const double radicand = (radius * speed - miss) * (radius * speed + miss);
     // Closed at the end of the piece: rounding must not push the root into the next one, where it would get lost.
-    const bool closed = (d + ends[k] * rate).squaredNorm() <= radius * radius;
+    const bool closed = (d + end * rate).squaredNorm() <= radius * radius;
     if (closing > 0 && radicand > 0) {
       const double t = clear / (closing + std::sqrt(radicand));
-      if (closed || (t >= from && t <= ends[k])) return std::clamp(t, from, ends[k]);
+      if (closed || (t >= from && t <= end)) return std::clamp(t, from, end);
     } else if (closed) {
-      return ends[k];
+      return end;
     }
-    from = ends[k];
+    from = end;
   }
   return std::nullopt;
 }
