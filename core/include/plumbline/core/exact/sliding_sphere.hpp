@@ -7,7 +7,7 @@
 //   t* = 2 |u0|/(7 mu g)
 //
 // on the way v = v0 - mu g t u0/|u0|, a parabola when v0 and u0 differ in direction, and w changes by
-// -5/2 mu g t (n x u0)/(r |u0|). Then it rolls on straight with v = (5/7) v0 + (2/7) r w0 x n. The spin about n stays:
+// 5/2 mu g t (n x u0)/(r |u0|). Then it rolls on straight with v = (5/7) v0 + (2/7) r w0 x n. The spin about n stays:
 // a contact in one point has no drilling friction. Source: Coriolis, Theorie mathematique des effets du jeu de billard
 // (1835); Landau and Lifshitz, section 38, problem 2. From pure sliding, w0 = 0: v = 5/7 v0, after 12 v0^2/(49 mu g).
 //
