@@ -18,7 +18,8 @@ constexpr std::size_t kMaxDepth = 20;
 // Within the half period |u| <= K.
 JacobiElliptic descend(double u, EllipticModulus modulus) {
   struct Level {
-    double k1, complement;  // k1 and 1 - k1
+    double k1, one_less_k1;
+    double complement;  // 1 - m above
   };
   std::array<Level, kMaxDepth> levels{};
   std::size_t depth = 0;
@@ -26,7 +27,7 @@ JacobiElliptic descend(double u, EllipticModulus modulus) {
     const double root = std::sqrt(modulus.complement), sum = 1 + root;
     // k1 = (1 - k')/(1 + k') = m/(1 + k')^2, without the difference.
     const double k1 = modulus.m / (sum * sum);
-    levels[depth++] = {k1, 2 * root / sum};
+    levels[depth++] = {k1, 2 * root / sum, modulus.complement};
     u *= 0.5 * sum;
     modulus = {k1 * k1, 4 * root / (sum * sum)};
   }
@@ -35,10 +36,15 @@ JacobiElliptic descend(double u, EllipticModulus modulus) {
     const Level level = levels[--depth];
     const double scale = 1 / (1 + level.k1 * sn * sn);
     // dn = (1 - k1 sn^2)/(1 + k1 sn^2), where 1 - k1 sn^2 = cn^2 + (1 - k1) sn^2 has no difference.
-    const double falling = cn * cn + level.complement * sn * sn;
+    const double falling = cn * cn + level.one_less_k1 * sn * sn;
     cn *= dn * scale;
     sn *= (1 + level.k1) * scale;
     dn = falling * scale;
+    // Every level doubles the relative error of cn and dn, while that of sn shrinks: start from sn as long as it can.
+    if (2 * sn * sn < 1) {
+      cn = std::sqrt((1 - sn) * (1 + sn));
+      dn = std::sqrt(cn * cn + level.complement * sn * sn);
+    }
   }
   return {sn, cn, dn, 0};
 }
