@@ -24,11 +24,11 @@ void require_body(const Vec3& inertia, const BodyState& initial) {
 }
 
 // Axis k of the frame P is axis order[k] of the body. P is right-handed: an odd order turns its second axis round.
-Quat frame_of(const std::array<int, 3>& order) {
+Mat3 frame_of(const std::array<int, 3>& order) {
   Mat3 r_BP;
   for (int k = 0; k < 3; ++k) r_BP.col(k) = Vec3::Unit(order[static_cast<std::size_t>(k)]);
   if (r_BP.determinant() < 0) r_BP.col(1) = -r_BP.col(1);
-  return Quat(r_BP);
+  return r_BP;
 }
 
 Vec3 permuted(const Vec3& v, const std::array<int, 3>& order) { return {v[order[0]], v[order[1]], v[order[2]]}; }
@@ -53,9 +53,10 @@ TorqueFreeTop::TorqueFreeTop(const Vec3& inertia, const BodyState& initial) : in
   initial_.q_WB.normalize();
   const Vec3 w_B = initial_.q_WB.conjugate() * initial_.w_WB;
   const std::array<int, 3> order = order_of_axes(inertia, w_B);
-  q_BP_ = frame_of(order);
+  const Mat3 r_BP = frame_of(order);
+  q_BP_ = Quat(r_BP);
   inertia_P_ = permuted(inertia, order);
-  const Vec3 w = q_BP_.conjugate() * w_B;
+  const Vec3 w = r_BP.transpose() * w_B;  // only names and signs: zeros stay zeros
   momentum_ = inertia_P_.cwiseProduct(w).norm();
 
   const double i1 = inertia_P_.x(), i2 = inertia_P_.y(), i3 = inertia_P_.z();

@@ -18,7 +18,9 @@
 //
 // Every sum above is arranged to have terms of one sign, so that no digits are lost for small w1, w2 or slow flips.
 // Two equal moments give m = n = 0 and circular functions; three give a steady spin; on the separatrix L^2 = 2 E I2
-// (m = 1) the functions are hyperbolic and the body flips once, in infinite time. All of these are covered.
+// (m = 1) the functions are hyperbolic and the body flips once, in infinite time. All of these are covered. A spin
+// about the middle axis is steady only where the other two components, in body axes, are exactly 0: one rounding away
+// from it the body flips, though late.
 #pragma once
 
 #include "plumbline/core/exact/elliptic_integral.hpp"
