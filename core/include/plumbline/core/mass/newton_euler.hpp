@@ -3,8 +3,8 @@
 //   M = dL/dt = I alpha + w x (I w)       L = I w       about the centre of mass, or about a point that is fixed in W
 //
 // Slide 6 writes M = I alpha and calls I "angular momentum". I is the moment of inertia, a tensor that turns with the
-// body, and its turning adds w x (I w); without it a free box that tumbles would lose or gain angular momentum. The
-// slide's form holds where w x (I w) = 0: spheres, spin about a principal axis, and bodies on a fixed axis, for the
+// body, and its turning adds w x (I w); without it the angular momentum of a free box that tumbles would turn in space.
+// The slide's form holds where w x (I w) = 0: spheres, spin about a principal axis, and bodies on a fixed axis, for the
 // part along it. Source: Goldstein, sections 5.5-5.6. All quantities in one frame: W for a torque in W, or body axes.
 #pragma once
 
