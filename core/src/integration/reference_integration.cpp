@@ -41,13 +41,13 @@ ReferenceRun integrate_reference(const AccelerationField& field, double t0, std:
                                  std::span<const double> times, double tolerance) {
   require_times(t0, times);
   if (initial.empty()) throw std::invalid_argument("integrate_reference: there are no bodies to integrate");
-  if (!(tolerance >= 1e-15 && tolerance <= 1e-3)) {
-    throw std::invalid_argument("integrate_reference: the tolerance must lie in [1e-15, 1e-3]");
+  if (!(tolerance >= 1e-17 && tolerance <= 1e-3)) {
+    throw std::invalid_argument("integrate_reference: the tolerance must lie in [1e-17, 1e-3]");
   }
   ReferenceRun result;
   result.states = run(field, t0, initial, times, tolerance, result.effort);
   Effort coarse_effort;
-  const std::vector<BodyState> coarse = run(field, t0, initial, times, 100 * tolerance, coarse_effort);
+  const std::vector<BodyState> coarse = run(field, t0, initial, times, 10 * tolerance, coarse_effort);
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     const BodyState &a = result.states[i], &b = coarse[i];
     result.position_uncertainty = max_or_nan(result.position_uncertainty, (a.p_WB - b.p_WB).norm());

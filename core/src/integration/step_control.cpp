@@ -21,9 +21,9 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 }  // namespace
 
 void require_tolerance(const Tolerance& tolerance) {
-  if (!(tolerance.relative >= 1e-15 && tolerance.relative <= 0.1)) {
+  if (!(tolerance.relative >= 1e-17 && tolerance.relative <= 0.1)) {
     throw std::invalid_argument(
-        "Dormand-Prince: the relative tolerance must lie in [1e-15, 0.1]; double resolves 2e-16");
+        "Dormand-Prince: the relative tolerance must lie in [1e-17, 0.1]; below, f itself rounds more");
   }
   if (!(tolerance.absolute > 0 && std::isfinite(tolerance.absolute))) {
     throw std::invalid_argument(

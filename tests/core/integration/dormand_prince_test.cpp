@@ -160,7 +160,7 @@ TEST(DormandPrince, SaysWhereItCannotGoOn) {
 
 TEST(DormandPrince, RefusesWhatMakesNoSense) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Tolerance& t : {Tolerance{1e-16, 1e-16}, Tolerance{0.2, 1e-9}, Tolerance{nan, 1e-9}, Tolerance{1e-9, 0},
+  for (const Tolerance& t : {Tolerance{1e-18, 1e-16}, Tolerance{0.2, 1e-9}, Tolerance{nan, 1e-9}, Tolerance{1e-9, 0},
                              Tolerance{1e-9, -1}, Tolerance{1e-9, nan}}) {
     EXPECT_THROW(DormandPrince<Vector2d>{t}, std::invalid_argument);
   }

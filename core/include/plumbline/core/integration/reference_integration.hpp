@@ -1,9 +1,9 @@
 // Reference trajectories by integration: for motions without a closed form, with a statement of how good they are.
 //
 // Dormand-Prince 8(5,3) with compensated summation (dormand_prince.hpp) on the equations of body_equations.hpp. What it
-// reaches, over 10 s, against closed forms and a Taylor series in extended precision (reference_integration_test.cpp):
-// a free tumbling box 1e-13, a heavy top of 150 rad/s 1e-12. What limits it then is the rounding of the angle that the
-// body turns through: half a unit in the last place of 1500 rad is 1.1e-13.
+// reaches over 10 s, against Taylor series in extended precision (reference_integration_test.cpp): a box that flips
+// over its unstable axis 1e-11 rad, a heavy top that turns through 1500 rad 5e-12 rad, a nutating one 4e-13 rad. The
+// box needs steps that are right to 1e-16: near its separatrix the motion multiplies errors by 1e4 at each flip.
 //
 // Range: smooth fields (no impacts, no friction that switches; cut the run there), not stiff, and not chaotic: the
 // uncertainty says when a problem has multiplied the rounding of its own initial state beyond use.
@@ -19,8 +19,8 @@ namespace plumbline {
 
 struct ReferenceRun {
   std::vector<BodyState> states;  // ordered by time, then by body
-  // Largest difference to a second run at 100 times the tolerance: an upper estimate of the error as long as steps and
-  // not roundings rule it, and its order of magnitude in any case.
+  // Largest difference to a second run at 10 times the tolerance. Errors are proportional to the tolerance, so this is
+  // about 9 times the error as long as steps rule it, and its order of magnitude where roundings do.
   double position_uncertainty = 0;  // [m]
   double attitude_uncertainty = 0;  // [rad]
   Effort effort;                    // of the first run
@@ -29,8 +29,8 @@ struct ReferenceRun {
 // States at those times [s], from `initial` at t0 [s]. Each step may add an error of tolerance (1 + |y|) to a number y
 // in SI units: choose units, or the tolerance, so that this is small beside your lengths. Throws std::invalid_argument
 // when times are not finite, fall, or start before t0, when initial holds no bodies or a number that is not finite, and
-// for a tolerance outside [1e-15, 1e-3]; std::runtime_error when the step underflows.
+// for a tolerance outside [1e-17, 1e-3]; std::runtime_error when the step underflows.
 ReferenceRun integrate_reference(const AccelerationField& field, double t0, std::span<const BodyState> initial,
-                                 std::span<const double> times, double tolerance = 1e-14);
+                                 std::span<const double> times, double tolerance = 1e-16);
 
 }  // namespace plumbline

@@ -19,7 +19,7 @@ struct Effort {
   std::size_t rejected = 0;     // attempts whose error was too large
 };
 
-// Throws std::invalid_argument unless both are positive and the relative one lies in [1e-15, 0.1].
+// Throws std::invalid_argument unless both are positive and the relative one lies in [1e-17, 0.1].
 void require_tolerance(const Tolerance& tolerance);
 // Throws std::invalid_argument unless t and the state are finite.
 void require_finite_start(double t, bool state_is_finite);

@@ -29,7 +29,8 @@ class Stepper {
   virtual std::string_view name() const = 0;  // "explicit Euler"
   // The power of dt with which the error over a fixed time falls (not that of one step, which is one higher).
   virtual int order() const = 0;
-  // Advances all states from t by dt [s]; a negative dt goes back in time. Throws std::invalid_argument unless t and dt are finite and dt is not zero.
+  // Advances all states from t by dt [s]; a negative dt goes back in time. Throws std::invalid_argument unless t and dt
+  // are finite and dt is not zero.
   virtual void step(const AccelerationField& field, double t, double dt, std::span<BodyState> states) = 0;
   // Forgets what earlier steps left behind (position Verlet keeps its previous positions). Call it when states were
   // changed from outside, by an impact for example, or when dt changes.
