@@ -44,7 +44,8 @@ double dormand_prince_error(double h, double err5_squared, double err3_squared, 
 
 double step_factor(double err, bool after_rejection) {
   if (!std::isfinite(err)) return 0.1;
-  const double factor = err > 0 ? 0.9 * std::pow(err, -0.125) : 6;
+  const double root = std::sqrt(std::sqrt(std::sqrt(err)));  // err^(1/8)
+  const double factor = err > 0 ? 0.9 / root : 6;
   return std::clamp(factor, 1.0 / 3, after_rejection ? 1.0 : 6.0);
 }
 

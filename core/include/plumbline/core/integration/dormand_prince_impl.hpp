@@ -95,11 +95,13 @@ void DormandPrince<State>::accept(double h) {
 }
 
 template <class State>
-double DormandPrince<State>::error(double h) const {
+double DormandPrince<State>::error(double h) {
   using namespace dormand_prince_tableau;
-  const auto scale = tolerance_.absolute + tolerance_.relative * y_.array().abs().max(y_new_.array().abs());
-  const double err5 = (weighted_sum<Error5>(k_).array() / scale).square().sum();
-  const double err3 = (weighted_sum<Error3>(k_).array() / scale).square().sum();
+  // 1/scale of each component, once for both: divisions are dear.
+  y_stage_ =
+      (tolerance_.absolute + tolerance_.relative * y_.array().abs().max(y_new_.array().abs())).inverse().matrix();
+  const double err5 = weighted_sum<Error5>(k_).cwiseProduct(y_stage_).squaredNorm();
+  const double err3 = weighted_sum<Error3>(k_).cwiseProduct(y_stage_).squaredNorm();
   return dormand_prince_error(h, err5, err3, static_cast<double>(y_.size()));
 }
 

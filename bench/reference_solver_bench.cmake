@@ -1,0 +1,10 @@
+# The reference solver; its peer Boost.odeint is headers only (libboost1.81-dev).
+plumbline_add_bench(reference_solver SOURCES reference_solver_bench.cpp LIBRARIES)
+target_include_directories(bench_reference_solver PRIVATE ${CMAKE_CURRENT_LIST_DIR}/../tests/core/integration)
+find_package(Boost 1.74 QUIET)
+if(Boost_FOUND)
+  target_include_directories(bench_reference_solver SYSTEM PRIVATE ${Boost_INCLUDE_DIRS})
+  target_compile_definitions(bench_reference_solver PRIVATE PLUMBLINE_HAVE_ODEINT)
+else()
+  message(STATUS "bench_reference_solver: without Boost.odeint to compare with (libboost1.81-dev)")
+endif()
