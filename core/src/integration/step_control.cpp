@@ -36,10 +36,10 @@ void require_finite_start(double t, bool state_is_finite) {
   if (!state_is_finite) throw std::invalid_argument("Dormand-Prince: the initial state is not finite");
 }
 
-double dormand_prince_error(double h, double err5_squared, double err3_squared, double components) {
+double dormand_prince_error(double err5_squared, double err3_squared, double components) {
   const double both = err5_squared + 0.01 * err3_squared;
   if (both == 0) return 0;
-  return std::abs(h) * err5_squared / std::sqrt(components * both);
+  return err5_squared / std::sqrt(components * both);
 }
 
 double step_factor(double err, bool after_rejection) {

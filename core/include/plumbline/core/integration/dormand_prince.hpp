@@ -5,13 +5,13 @@
 //
 //   DormandPrince<Eigen::Vector2d> solver({.relative = 1e-13, .absolute = 1e-13});
 //   solver.start(0, {1, 0});
-//   solver.advance_to([](double t, const auto& y, auto& dy) { dy = {y[1], -y[0]}; }, 10);   // f writes dy
+//   solver.advance_to([](double t, const auto& y, auto& dy) { dy << y[1], -y[0]; }, 10);    // f writes dy
 //   solver.state();                                                                         // (cos 10, -sin 10)
 //
 // The step. Twelve evaluations give y of order 8 and the errors err5 and err3 of two formulas of lower order. With
 // the root mean square over the components of error/(absolute + relative |y|),
 //
-//   err = |h| err5^2/sqrt(err5^2 + err3^2/100),   next h = 0.9 h err^(-1/8), between a third and six times h
+//   err = err5^2/sqrt(err5^2 + err3^2/100),   next h = 0.9 h err^(-1/8), between a third and six times h
 //
 // and a step with err > 1 is taken again. err falls like h^8; the error that remains, of order h^9, is usually far
 // below. The tolerance bounds each step, so the error at the end is the tolerance times the number of steps times the

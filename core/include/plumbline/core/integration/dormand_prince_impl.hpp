@@ -21,19 +21,24 @@ struct Error3 {
   static constexpr Weights kValues = kE3;
 };
 
-constexpr std::size_t next_nonzero(const Weights& w, std::size_t i) {
-  while (i < kStages && w[i] == 0) ++i;
-  return i;
+// The last i below `end` with w_i != 0; kStages when there is none.
+constexpr std::size_t last_nonzero(const Weights& w, std::size_t end) {
+  for (std::size_t i = end; i-- > 0;) {
+    if (w[i] != 0) return i;
+  }
+  return kStages;
 }
 
-// sum_i w_i k_i over the weights that are not zero, as one expression: Eigen runs through the components once.
-template <class Row, std::size_t I = 0, class Slopes>
-auto weighted_sum(const Slopes& k) {
-  constexpr std::size_t kNext = next_nonzero(Row::kValues, I + 1);
-  if constexpr (kNext == kStages) {
-    return Row::kValues[I] * k[I];
+// h sum_i w_i k_i over i < End and the weights that are not zero, as one expression: Eigen runs through the components
+// once. The newest slope comes last and h is in the weights, so that a processor is done with the rest while it still
+// works on that slope.
+template <class Row, std::size_t End = kStages, class Slopes>
+auto increment(double h, const Slopes& k) {
+  constexpr std::size_t kLast = last_nonzero(Row::kValues, End);
+  if constexpr (last_nonzero(Row::kValues, kLast) == kStages) {
+    return (h * Row::kValues[kLast]) * k[kLast];
   } else {
-    return Row::kValues[I] * k[I] + weighted_sum<Row, kNext>(k);
+    return increment<Row, kLast>(h, k) + (h * Row::kValues[kLast]) * k[kLast];
   }
 }
 
@@ -64,7 +69,7 @@ template <class State>
 template <std::size_t Stage, class Rhs>
 void DormandPrince<State>::evaluate(const Rhs& f, double h) {
   using namespace dormand_prince_tableau;
-  y_stage_ = y_ + h * weighted_sum<StageRow<Stage>>(k_);
+  y_stage_ = y_ + increment<StageRow<Stage>>(h, k_);
   f(t_ + kC[Stage] * h, std::as_const(y_stage_), k_[Stage]);
 }
 
@@ -77,7 +82,7 @@ void DormandPrince<State>::attempt(const Rhs& f, double h) {
   [&]<std::size_t... I>(std::index_sequence<I...>) { (evaluate<I + 1>(f, h), ...); }
   (std::make_index_sequence<kStages - 1>());
   effort_.evaluations += kStages - 1;
-  increment_ = h * weighted_sum<Solution>(k_) + y_carry_;
+  increment_ = increment<Solution>(h, k_) + y_carry_;
   y_new_ = y_ + increment_;
 }
 
@@ -100,9 +105,9 @@ double DormandPrince<State>::error(double h) {
   // 1/scale of each component, once for both: divisions are dear.
   y_stage_ =
       (tolerance_.absolute + tolerance_.relative * y_.array().abs().max(y_new_.array().abs())).inverse().matrix();
-  const double err5 = weighted_sum<Error5>(k_).cwiseProduct(y_stage_).squaredNorm();
-  const double err3 = weighted_sum<Error3>(k_).cwiseProduct(y_stage_).squaredNorm();
-  return dormand_prince_error(h, err5, err3, static_cast<double>(y_.size()));
+  const double err5 = increment<Error5>(h, k_).cwiseProduct(y_stage_).squaredNorm();
+  const double err3 = increment<Error3>(h, k_).cwiseProduct(y_stage_).squaredNorm();
+  return dormand_prince_error(err5, err3, static_cast<double>(y_.size()));
 }
 
 template <class State>

@@ -24,8 +24,8 @@ void require_tolerance(const Tolerance& tolerance);
 // Throws std::invalid_argument unless t and the state are finite.
 void require_finite_start(double t, bool state_is_finite);
 
-// The estimate of dormand_prince.hpp from the sums of squares of the two errors per unit of h; NaN in, NaN out.
-double dormand_prince_error(double h, double err5_squared, double err3_squared, double components);
+// The estimate of dormand_prince.hpp from the sums of squares of the two errors; NaN in, NaN out.
+double dormand_prince_error(double err5_squared, double err3_squared, double components);
 
 // 0.9 err^(-1/8) within [1/3, 6]; at most 1 right after a rejected attempt. 1/10 when err is not a number: a step too
 // long may have left the domain of f.
