@@ -47,7 +47,7 @@ double speed_left(Stepper& stepper, double dt, int steps) {
   return std::abs(s.v_WB.x());
 }
 
-TEST(Stability, OfEulerOnDragEndsAtTwoMOverC) {
+TEST(StepperStability, OfEulerOnDragEndsAtTwoMOverC) {
   // One step multiplies v by 1 - dt c/m: by -0.998 and -1.002 here.
   ExplicitEuler euler;
   SemiImplicitEuler semi_implicit;
@@ -57,7 +57,7 @@ TEST(Stability, OfEulerOnDragEndsAtTwoMOverC) {
   }
 }
 
-TEST(Stability, OfRungeKutta4OnDragEndsWhereItsPolynomialSays) {
+TEST(StepperStability, OfRungeKutta4OnDragEndsWhereItsPolynomialSays) {
   // |R(z)| = 1 at z = -2.7852935634052817, the real root of z^3/24 + z^2/6 + z/2 + 1.
   const double z = 2.7852935634052817;
   EXPECT_NEAR(-z * z * z / 24 + z * z / 6 - z / 2 + 1, 0, 4 * kEps);
@@ -66,7 +66,7 @@ TEST(Stability, OfRungeKutta4OnDragEndsWhereItsPolynomialSays) {
   EXPECT_GT(speed_left(rk4, z * 1.001, 2000), 10);
 }
 
-TEST(Stability, OfExplicitEulerOnASpringDoesNotExist) {
+TEST(StepperStability, OfExplicitEulerOnASpringDoesNotExist) {
   for (const double dt : {0.5, 0.1, 0.01}) {
     ExplicitEuler euler;
     BodyState s;
@@ -78,7 +78,7 @@ TEST(Stability, OfExplicitEulerOnASpringDoesNotExist) {
   }
 }
 
-TEST(Stability, OfSymplecticSchemesOnASpringEndsAtTwo) {
+TEST(StepperStability, OfSymplecticSchemesOnASpringEndsAtTwo) {
   SemiImplicitEuler semi_implicit;
   PositionVerlet position_verlet;
   VelocityVerlet velocity_verlet;
@@ -92,7 +92,7 @@ TEST(Stability, OfSymplecticSchemesOnASpringEndsAtTwo) {
   }
 }
 
-TEST(Stability, OfRungeKutta4OnASpringEndsAtTwoRootTwo) {
+TEST(StepperStability, OfRungeKutta4OnASpringEndsAtTwoRootTwo) {
   // |R(iy)|^2 = 1 - y^6/72 + y^8/576 = 1 at y = 2 sqrt 2; 0.1 % beside it, +-0.0142 a step.
   const double limit = 2 * std::sqrt(2.0);
   RungeKutta4 rk4;
