@@ -55,14 +55,18 @@ SeparatingAxis separating_axis(const PosedPolyhedron& a, const PosedPolyhedron& 
 }
 
 NearestPoints nearest_features(const PosedPolyhedron& a, const PosedPolyhedron& b) {
-  constexpr double kTie = 1e-12;
+  constexpr double kTie = 64 * std::numeric_limits<double>::epsilon();
+  NearestPoints nearest{Vec3::Zero(), Vec3::Zero()};
   double least2 = std::numeric_limits<double>::infinity();
-  visit_features(a, b, [&](const NearestPoints& pair) { least2 = std::min(least2, (pair.a - pair.b).squaredNorm()); });
-  const double limit = std::sqrt(least2) + kTie * (a.shape->radius() + b.shape->radius());
+  visit_features(a, b, [&](const NearestPoints& pair) {
+    const double distance2 = (pair.a - pair.b).squaredNorm();
+    if (distance2 < least2) least2 = distance2, nearest = pair;
+  });
+  const double limit = kTie * (a.shape->radius() + b.shape->radius());
   NearestPoints sum{Vec3::Zero(), Vec3::Zero()};
   int count = 0;
   visit_features(a, b, [&](const NearestPoints& pair) {
-    if (!(pair.distance() <= limit)) return;
+    if (!(((pair.a - pair.b) - (nearest.a - nearest.b)).norm() <= limit)) return;
     sum.a += pair.a;
     sum.b += pair.b;
     ++count;

@@ -1,5 +1,9 @@
 #include "plumbline/core/collision/shape_impact.hpp"
 
+#include <algorithm>
+#include <array>
+#include <limits>
+
 #include "plumbline/core/collision/polyhedron_impact.hpp"
 #include "plumbline/core/collision/sphere_box_impact.hpp"
 
@@ -60,12 +64,16 @@ std::optional<Touch> meet(const Box& a, const Motion& motion_a, const HalfSpace&
   if (!t) return std::nullopt;
   const Vec3 centre = position(motion_a, *t);
   const Quat attitude = rotation_by(*t * motion_a.start.w_WB) * motion_a.start.q_WB;
-  const double limit = plane.offset + 10 * kImpactTolerance * a.size.norm();
+  std::array<Vec3, 8> corners;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 8; ++k) {
+    corners[k] = centre + attitude * box_corner(a.size, static_cast<int>(k));
+    lowest = std::min(lowest, plane.normal_W.dot(corners[k]));
+  }
   Vec3 sum = Vec3::Zero();
   int count = 0;
-  for (int k = 0; k < 8; ++k) {
-    const Vec3 corner = centre + attitude * box_corner(a.size, k);
-    if (!(plane.normal_W.dot(corner) <= limit)) continue;
+  for (const Vec3& corner : corners) {
+    if (plane.normal_W.dot(corner) > lowest + 10 * kImpactTolerance * a.size.norm()) continue;
     sum += corner;
     ++count;
   }

@@ -5,9 +5,9 @@
 // Separating axes. Two convex bodies are apart exactly if some plane has one on each side. For polyhedra only the
 // normals of the faces of the difference A - B need trying: those of the faces of A, of the faces of B, and the cross
 // products of one edge of each. Of the edge pairs only those count whose arcs on the sphere of normals cross (a face
-// of A - B then). The largest gap of all is the signed distance as far as planes can see it: where the bodies overlap
-// it is minus the depth (the shortest way to push them apart), where they touch it is 0, where they are apart it is a
-// gap > 0 but smaller than the distance if the nearest features are two corners, or a corner and an edge.
+// of A - B then). The largest gap of all is the signed distance as far as these planes can see it: where the bodies
+// overlap it is minus the depth (the shortest way to push them apart), where they touch it is 0, where they are apart it
+// is > 0, and smaller than the distance if the nearest features are two corners, or a corner and an edge.
 // S. Gottschalk, Separating axis theorem, UNC TR96-024, 1996; D. Gregorius, The separating axis test between convex
 // polyhedra, GDC 2013.
 //
@@ -17,7 +17,8 @@
 // Both cost a time that grows with edges times edges: made for boxes and for solids of up to some dozen faces.
 // A distance d [m] carries an error of a few roundings of the coordinates, about 1e-15 of (size + distance of the
 // bodies): there is no cancellation near touch, since the direction comes from a face or from two edges and never from
-// the difference of two nearly equal points.
+// the difference of two nearly equal points. The place of the nearest points is known as well, except where edges cross
+// at a flat angle: along these its error is divided by the sine of the angle.
 #pragma once
 
 #include "plumbline/core/collision/convex_polyhedron.hpp"
@@ -45,7 +46,7 @@ struct Separation {
   double distance = 0;            // [m]; negative: overlap
   Vec3 normal_W = Vec3::UnitZ();  // unit, from b to a
   Vec3 point_a_W = Vec3::Zero();  // on the surface of A [m]
-  Vec3 point_b_W = Vec3::Zero();  // on the surface of B [m]: point_a - point_b = distance * normal
+  Vec3 point_b_W = Vec3::Zero();  // on the surface of B [m]; point_a - point_b is along the normal
 };
 
 Separation convex_distance(const ConvexPolyhedron& a, const BodyState& state_a, const ConvexPolyhedron& b,

@@ -10,6 +10,8 @@ struct Touch {
   Vec3 point_W = Vec3::Zero();    // where they touch at that time [m]; one of the points, if they touch along a line or
                                   // on a face
   Vec3 normal_W = Vec3::UnitZ();  // unit, from b to a, as in a Contact: the impulse on a points along it
+
+  bool operator==(const Touch&) const = default;
 };
 
 }  // namespace plumbline
