@@ -16,7 +16,7 @@ constexpr int kMaxSteps = 10000;
 // the bodies then often sees farther ahead.
 constexpr double kNearlyParallel = 0.05;
 
-// Both together touch nothing while their bounding spheres are apart: the time until these meet.
+// Nothing touches while the bounding spheres are apart: the time until these meet.
 std::optional<double> spheres_meet(const MovingPair& pair, double horizon) {
   Motion a, b;
   b.start.p_WB = pair.b.centre;
@@ -44,17 +44,18 @@ double step_along(const SeparatingAxis& axis, const MovingPair& pair, double unt
 }
 
 // Bodies that touch approach if they do so along every axis that sees them touch (they part along any other one).
-// Returns the step after which to look again, or 0 if they approach.
-double step_if_parting(const SeparatingAxis& best, const MovingPair& pair, double tolerance, double until) {
+// Those that do not get the step after which to look again.
+std::optional<double> step_if_parting(const SeparatingAxis& best, const MovingPair& pair, double tolerance,
+                                      double until) {
   const double rest =
       16 * std::numeric_limits<double>::epsilon() *
       (pair.velocity.norm() + pair.w_A.norm() * pair.a.shape->radius() + pair.w_B.norm() * pair.b.shape->radius());
-  double step = 0;
+  std::optional<double> step;
   visit_axes(pair.a, pair.b, best.gap - tolerance, [&](const SeparatingAxis& axis) {
     const GapBound bound(pair, direction_of(axis, pair), until);
     // Slower than rounding can tell is rest, not approach. Until the gap may have fallen by the tolerance, nothing
     // worth a look can happen.
-    if (!(bound.rate(tolerance) < -rest)) step = std::max(step, bound.time_above(axis.gap - tolerance));
+    if (!(bound.rate(tolerance) < -rest)) step = std::max(step.value_or(0), bound.time_above(axis.gap - tolerance));
     return best.gap - tolerance;
   });
   return step;
@@ -62,7 +63,7 @@ double step_if_parting(const SeparatingAxis& best, const MovingPair& pair, doubl
 
 Touch touch_at(double t, const SeparatingAxis& axis, MovingPair& pair, const Motion& motion_a) {
   const Vec3 centre_a = motion_a.start.p_WB + t * motion_a.start.v_WB + 0.5 * t * t * motion_a.a_W;
-  // Bodies that overlap (at the start only) are pushed apart by half of the depth each to see where they touch.
+  // A is first moved along the normal until it just touches (from far inside only if they overlap at the start).
   for (Vec3& p : pair.a.vertices) p -= axis.gap * axis.normal_W;
   for (std::size_t f = 0; f < pair.a.normals.size(); ++f) {
     pair.a.offsets[f] -= axis.gap * axis.normal_W.dot(pair.a.normals[f]);
@@ -91,8 +92,9 @@ std::optional<Touch> polyhedron_meets_polyhedron(const ConvexPolyhedron& a, cons
     const double until = look_ahead(pair, reach, horizon - t);
     double step = 0;
     if (axis.gap <= tolerance) {
-      step = step_if_parting(axis, pair, tolerance, until);
-      if (step == 0) return touch_at(t, axis, pair, motion_a);
+      const auto parting = step_if_parting(axis, pair, tolerance, until);
+      if (!parting) return touch_at(t, axis, pair, motion_a);
+      step = *parting;
     } else {
       step = step_along(axis, pair, until);
     }
