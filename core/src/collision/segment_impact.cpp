@@ -75,11 +75,13 @@ double slack(const Vec3& u, const Vec3& v, double reach) {
   return kRounding * reach * (sine > 1 / kLargestSlant ? 1 / sine : 1);
 }
 
-// `normal` if the approach is along it, else the part of the approach across `edge`, else the approach itself.
-Vec3 facing(const Vec3& normal, const Vec3& approach, const Vec3& edge) {
+// u x v if the approach is along it, else the part of the approach across `edge`, else the approach itself. Of nearly
+// parallel u and v the product is rounding only.
+Vec3 facing(const Vec3& u, const Vec3& v, const Vec3& approach, const Vec3& edge) {
   constexpr double kAlong = 1e-9;
+  const Vec3 normal = u.cross(v);
   const double along = normal.dot(approach);
-  if (std::abs(along) > kAlong * normal.norm() * approach.norm()) {
+  if (std::abs(along) > kAlong * u.norm() * v.norm() * approach.norm()) {
     return normal.normalized() * (along > 0 ? -1 : 1);
   }
   const double length2 = edge.squaredNorm();
@@ -122,7 +124,7 @@ std::optional<Touch> segment_meets_segment(const MovingSegment& a, const MovingS
     // Of two in one plane, the one that is hit is the one whose ends are farther from the point.
     const double end_of_a = std::min((point - now_a.tail).norm(), (point - now_a.head).norm());
     const double end_of_b = std::min((point - now_b.tail).norm(), (point - now_b.head).norm());
-    return Touch{t, point, facing(u.cross(v), approach, end_of_a > end_of_b ? u : v)};
+    return Touch{t, point, facing(u, v, approach, end_of_a > end_of_b ? u : v)};
   }
   return std::nullopt;
 }
@@ -158,7 +160,7 @@ std::optional<Touch> point_meets_triangle(const MovingPoint& point, const Moving
       const double distance = (nearest_on_segment(p, side) - p).norm();
       if (distance < nearest) nearest = distance, edge = side.head - side.tail;
     }
-    return Touch{t, on, facing(n, approach, edge)};
+    return Touch{t, on, facing(ut, vt, approach, edge)};
   }
   return std::nullopt;
 }

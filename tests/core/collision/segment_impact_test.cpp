@@ -115,7 +115,7 @@ TEST(SegmentImpact, FindsTheFirstCrossing) {
     EXPECT_NEAR(found->normal_W.norm(), 1, 8 * kEps);
   }
   EXPECT_GT(at_the_made_time, kTrials / 2);
-  EXPECT_GT(misses, kTrials / 10);
+  EXPECT_GT(misses, kTrials / 20);
   EXPECT_LT(worst, 1e-12);
   RecordProperty("worst_error_fs", std::to_string(worst * 1e15));
 }
@@ -165,7 +165,7 @@ TEST(SegmentImpact, WorksInThePlane) {
       return MovingPoint{shift + turn * Vec3(x, y, 0), turn * Vec3(vx, vy, 0)};
     };
     const MovingSegment floor{at(-1, 0, 0, 0), at(1, 0, 0, 0)};
-    const double rounding = 64 * kEps;
+    const double rounding = 64 * kEps * 6;  // coordinates of up to 6 m, at 1 m/s or more
     // A slanting rod whose lower end comes down on the floor.
     const auto end = segment_meets_segment({at(0.2, 1, 0.1, -1), at(0.5, 2, 0.1, -1)}, floor, 5);
     ASSERT_TRUE(end.has_value()) << k;

@@ -6,9 +6,9 @@
 // normals of the faces of the difference A - B need trying: those of the faces of A, of the faces of B, and the cross
 // products of one edge of each. Of the edge pairs only those count whose arcs on the sphere of normals cross (a face
 // of A - B then). The largest gap of all is the signed distance as far as these planes can see it: where the bodies
-// overlap it is minus the depth (the shortest way to push them apart), where they touch it is 0, where they are apart it
-// is > 0, and smaller than the distance if the nearest features are two corners, or a corner and an edge.
-// S. Gottschalk, Separating axis theorem, UNC TR96-024, 1996; D. Gregorius, The separating axis test between convex
+// overlap it is minus the depth (the shortest way to push them apart), where they touch it is 0, where they are apart
+// it is > 0, and smaller than the distance if the nearest features are two corners, or a corner and an edge. S.
+// Gottschalk, Separating axis theorem, UNC TR96-024, 1996; D. Gregorius, The separating axis test between convex
 // polyhedra, GDC 2013.
 //
 // Nearest features. The distance of bodies that are apart is the smallest of all edge-edge and corner-face distances.

@@ -18,8 +18,9 @@
 // (at most 1e6), which is what the time of a crossing at that angle is worth. So lines that pass each other at such a
 // distance may be called touching. The time of a simple root has an error of a few roundings of the coordinates over
 // the speed of approach; of a double root, of its square root.
-// Lines have no inside: those that touch at the start meet at 0, whether they approach or part. NaN never meets
-// anything.
+// Rigid rods that turn have ends on circles and no cubic: give them a thickness, and they are polyhedra
+// (polyhedron_impact.hpp). Lines have no inside: those that touch at the start meet at 0, whether they approach or
+// part. NaN never meets anything.
 #pragma once
 
 #include <array>
