@@ -1,7 +1,7 @@
 // The scenes of the broad-phase benchmark: n boxes each, of a density that lets a box meet about two others.
 //
-// All corners are numbers that single precision holds, so that a peer that computes in float sees the same boxes and
-// must find the same pairs.
+// All corners are multiples of 2^-12 m, and below 2^12 m: single precision holds them, so that a peer that computes in
+// float sees the same boxes and must find the same pairs.
 #pragma once
 
 #include <cmath>
@@ -22,10 +22,11 @@ class SceneDice {
   std::mt19937_64 engine_{17};
 };
 
+inline double on_raster(double value) { return 0x1p-12 * std::floor(0x1p12 * value); }
+
 inline Aabb box_at(const Vec3& corner, double edge) {
-  const Vec3 min = corner.cast<float>().cast<double>();
-  const Vec3 max = (min.array() + edge).matrix().cast<float>().cast<double>();
-  return {min, max};
+  const Vec3 min(on_raster(corner.x()), on_raster(corner.y()), on_raster(corner.z()));
+  return {min, min.array() + on_raster(edge)};
 }
 
 // Cubes of 1 m, one to 2 m^3.
