@@ -5,7 +5,7 @@
 // factor 2 of size (a hierarchical grid: Ericson, Real-Time Collision Detection, 7.2.1); a box also looks into the
 // grids with larger cells.
 //
-// Slots. Cell (x, y, z) of a grid has the slot (x + P y + Q z) mod M, M a power of two >= 2 n: cells in a row along x
+// Slots. Cell (x, y, z) of a grid has the slot (x + P y + Q z) mod M, M a power of two >= 4 n: cells in a row along x
 // have slots in a row. If all cells from wall to wall fit, P and Q are the row length and the layer size, and no two
 // cells share a slot. If not, P and Q are M times two numbers as far from fractions as can be, which scatters the cells
 // that are in use evenly; boxes from cells that share a slot are told apart only when they overlap, which is rare.
