@@ -58,11 +58,12 @@ def main(source, target):
     width, height = LEFT + 2 * PANEL_W + GAP_X + 20, TOP + 2 * PANEL_H + GAP_Y + 54
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">',
            STYLE, f'<rect class="b" width="{width}" height="{height}" fill="#fff"/>']
-    step = (width - LEFT) / len(COLOURS)
-    for k, (method, colour) in enumerate(COLOURS.items()):
-        cx = LEFT + k * step
+    left = LEFT
+    for method, colour in COLOURS.items():
         dash = ' stroke-dasharray="6 4"' if method.startswith("Bullet") else ""
-        out.append(f'<path stroke="{colour}" stroke-width="3"{dash} d="M{cx:.0f} 22h18"/><text x="{cx + 23:.0f}" y="26">{method}</text>')
+        out.append(f'<path stroke="{colour}" stroke-width="3"{dash} d="M{left} 22h18"/>'
+                   f'<text x="{left + 23}" y="26">{method}</text>')
+        left += 52 + 7.2 * len(method)
     for k, (scene, curves) in enumerate(scenes.items()):
         out += panel(LEFT + (k % 2) * (PANEL_W + GAP_X), TOP + (k // 2) * (PANEL_H + GAP_Y), scene, curves)
     middle = LEFT + PANEL_W + GAP_X / 2
