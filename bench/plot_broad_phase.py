@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws docs/figures/broad_phase.svg from the JSON of bench_broad_phase: time per body against n, one panel a scene.
 
-usage: plot_broad_phase.py broad_phase.json broad_phase.svg
+usage: plot_broad_phase.py RUN.json ... broad_phase.svg      (a later run replaces the points of an earlier one)
 """
 
 import json
@@ -17,10 +17,10 @@ STYLE = """<style>text{font:13px sans-serif;fill:#24292f}.t{font-weight:bold}.a{
 .g{stroke:#888;stroke-opacity:.3}@media (prefers-color-scheme:dark){text{fill:#e6edf3}.a{stroke:#e6edf3}.b{fill:#0d1117}}</style>"""
 
 
-def read(path):
+def read(paths):
     """{scene: {method: [(n, ns per body)]}}; medians where a run was repeated."""
     curves = {}
-    for run in json.load(open(path))["benchmarks"]:
+    for run in [run for path in paths for run in json.load(open(path))["benchmarks"]]:
         if run.get("error_occurred") or run.get("aggregate_name", "median") != "median" or "s_per_body" not in run:
             continue
         scene, method, n = run["run_name"].split("/")[:3]
@@ -53,8 +53,8 @@ def panel(x0, y0, title, curves):
     return out
 
 
-def main(source, target):
-    scenes = read(source)
+def main(sources, target):
+    scenes = read(sources)
     width, height = LEFT + 2 * PANEL_W + GAP_X + 20, TOP + 2 * PANEL_H + GAP_Y + 54
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}">',
            STYLE, f'<rect class="b" width="{width}" height="{height}" fill="#fff"/>']
@@ -73,6 +73,6 @@ def main(source, target):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
-    main(*sys.argv[1:])
+    main(sys.argv[1:-1], sys.argv[-1])
