@@ -14,27 +14,27 @@
 // Exactness. Times of impact come from the quadratic equation (relative motion is linear; a ball that falls on one that
 // rests meets it on a parabola, which is searched to 1e-13 of the distance). Positions carry the rounding of their
 // coordinates and times that of the clock: about 2e-16 max(|p|, v t) [m]. An elastic impact keeps energy and momentum
-// to rounding. What no arithmetic can keep is the trajectory of many balls beyond some dozen impacts each: two gases that
-// differ in the last digit are strangers after that.
+// to rounding. What no arithmetic can keep is the trajectory of many balls beyond some dozen impacts each: two gases
+// that differ in the last digit are strangers after that.
 //
-// Events at the same time are taken in the order of the ball's index, one after the other, each with the velocities that
-// the one before has left. A cascade through touching balls is so resolved within one instant. For Newton's cradle
+// Events at the same time are taken in the order of the ball's index, one after the other, each with the velocities
+// that the one before has left. A cascade through touching balls is so resolved within one instant. For Newton's cradle
 // with gaps of 0 that is the limit of gaps that close from the struck end on (as many balls leave as have come); for a
 // ball that strikes two others at once it makes one of them the first. Rigid bodies have no unique answer there.
 //
 // Infinitely many impacts in a finite time (Zeno) end by stated rules (EventRules):
 // - A ball on a wall. With the acceleration -a along the wall's normal and e < 1, the bounces after the rebound speed u
 //   last 2u/a (1 + e + e^2 + ...) = 2u / (a (1 - e)). When that is below train_time and nobody can meet the ball
-//   before, the train is taken as a whole: bounce_train.hpp gives the state at every time in it, and at its end the ball
-//   rests on the wall and slides along it without friction. A ball that comes near in the meantime takes the train back:
-//   it is again followed bounce by bounce, from its exact state. Exact.
+//   before, the train is taken as a whole: bounce_train.hpp gives the state at every time in it, and at its end the
+//   ball rests on the wall and slides along it without friction. A ball that comes near in the meantime takes the train
+//   back: it is again followed bounce by bounce, from its exact state. Exact.
 // - Shorter than `instant`, a train counts as rest at once: the ball is then at most a instant^2/8, 1e-18 m, off.
 // - A ball that rests is woken by an impact that would lift it for longer than `instant`.
 // - Balls that collapse onto each other (three balls of small e; a ball that comes to rest on a ball). There is no
-//   series to sum, and the rule is a model: after collapse_impacts in quick succession the impacts are elastic, so that a
-//   ball on another keeps hopping within collapse_time, at heights of about 1e-9 m (the TC model, Luding and McNamara,
-//   Granular Matter 1, 113 (1998), with a count that leaves cascades alone). It costs 1e5 impacts a second for each
-//   contact: a pile is not what this simulator is for, and that is the price of zero tolerance.
+//   series to sum, and the rule is a model: after collapse_impacts in quick succession the impacts are elastic, so that
+//   a ball on another keeps hopping within collapse_time, at heights of about 1e-9 m (the TC model, Luding and
+//   McNamara, Granular Matter 1, 113 (1998), with a count that leaves cascades alone). It costs 1e5 impacts a second
+//   for each contact: a pile is not what this simulator is for, and that is the price of zero tolerance.
 #pragma once
 
 #include <cstdint>
@@ -73,7 +73,8 @@ class EventDrivenSimulator {
   explicit EventDrivenSimulator(EventScene scene, const EventRules& rules = {});
 
   // Goes on to the next impact and returns it, or to the time `until` [s] when there is none before. An impact at
-  // exactly `until` still happens. Throws std::invalid_argument for a time in the past or NaN.
+  // exactly `until` still happens. With `until` infinite, time stands still after the last impact of all. Throws
+  // std::invalid_argument for a time in the past or NaN.
   std::optional<Impact> next_impact(double until);
   // All impacts up to then; their number.
   std::uint64_t run_until(double until);
@@ -113,11 +114,12 @@ class EventDrivenSimulator {
     double time = 0;
     double radius, inverse_mass;
     std::uint32_t course = 0;
-    int streak = 0;               // impacts in quick succession
-    double last_impact = -kNever; // on another ball
+    int streak = 0;                // impacts in quick succession
+    double last_impact = -kNever;  // on another ball
     Eigen::Vector3i images = Eigen::Vector3i::Zero();
-    std::vector<int> supports;    // walls on which it rests
+    std::vector<int> supports;  // walls on which it rests, or slides while in a train
     bool in_train = false;
+    bool fixed() const { return inverse_mass == 0; }
   };
 
   // The motion of one body as another one sees it at this moment.
@@ -126,43 +128,54 @@ class EventDrivenSimulator {
     double reach;  // sum of the radii
   };
 
+  // event_driven_simulator.cpp: building the world, and what happens at an event
   void check_scene() const;
-  void check_overlaps();
+  void check_overlaps() const;
+  void build_cells();
+  void count_at_once();
+  std::optional<Impact> collide(int i, int j);
+  Impact hit_wall(int i, int wall);
+  void cross(int i, int face);
+  bool collapses(Body& body) const;
+  // Where a body is now, hops of a train included.
+  void place_now(Body& body, std::size_t index) const;
+
+  // event_prediction.cpp: what comes next for a body
   void fly(Body& body) const;
   Sight sight(const Body& me, const Body& other, const Vec3& shift) const;
   double meeting_time(const Sight& s, const Body& me, const Body& other, double before) const;
   double wall_time(const Body& body, const Wall& wall, double margin) const;
-
-  void schedule(int i);
+  Event crossing(int i, const Body& body) const;
   Event predict(int i);
-  Event crossing(int i) const;
-  void cross(int i, int face);
+  void schedule(int i);
 
-  std::optional<Impact> collide(int i, int j);
-  Impact hit_wall(int i, int wall);
-  double restitution_of(const Body& body, double e) const;
-  void count_streak(Body& body);
-  void count_instant();
-
-  Vec3 supported_acceleration(Body& body) const;
-  void lift_or_keep(Body& body);
-  void rest_on(Body& body, int wall);
-  bool undisturbed(int i, int wall, const BounceTrain& train);
-  void enter_train(int i, int wall, const BounceTrain& train);
+  // zeno_rule.cpp: rest, and trains of bounces that end in it
+  void support(Body& body) const;
+  void lift_or_keep(Body& body) const;
+  void rest_on(Body& body, int wall) const;
+  bool come_to_rest(int i, int wall, double rebound, double e);
+  bool may_meet(const Body& sliding, int wall, double height, const Body& other, double other_height, const Vec3& shift,
+                double within) const;
+  bool undisturbed(int i, int wall, const BounceTrain& train) const;
+  double hop_height(int i) const;
   void leave_train(int i);
   Impact end_train(int i);
-  bool conflicts(int i, const Body& me, const Vec3& shift);
 
   EventScene scene_;
   EventRules rules_;
   double now_ = 0;
-  double instant_ = 0;          // the last time at which something happened ...
-  long impacts_at_once_ = 0;    // ... and how much
+  double last_event_ = -kNever;  // the last time at which something happened ...
+  long events_at_once_ = 0;      // ... and how much
+  double largest_radius_ = 0;
   std::vector<Body> bodies_;
-  std::vector<Event> events_;   // the earliest of each body
+  std::vector<Event> events_;  // the earliest of each body
   EventQueue queue_;
   EventCells cells_;
-  std::map<int, BounceTrain> trains_;
+  struct Train {
+    BounceTrain bounces;
+    int wall;
+  };
+  std::map<int, Train> trains_;  // by body
   EventCounts counts_;
 };
 
