@@ -53,6 +53,7 @@ double EventDrivenSimulator::meeting_time(const Sight& s, const Body& me, const 
     if (clear <= 0) {
       return closing > kRoundings * kEps * s.reach * (me.v.norm() + other.v.norm()) ? 0 : kNever;
     }
+    if (clear > 2 * closing * before) return kNever;  // the root in the denominator is at most `closing`
     const double radicand = s.reach * s.reach * s.v.squaredNorm() - s.d.cross(s.v).squaredNorm();
     return radicand > 0 ? clear / (closing + std::sqrt(radicand)) : kNever;
   }

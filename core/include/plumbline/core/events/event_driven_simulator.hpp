@@ -114,11 +114,11 @@ class EventDrivenSimulator {
     double time = 0;
     double radius, inverse_mass;
     std::uint32_t course = 0;
-    int streak = 0;                // impacts in quick succession
-    double last_impact = -kNever;  // on another ball
-    Eigen::Vector3i images = Eigen::Vector3i::Zero();
-    std::vector<int> supports;  // walls on which it rests, or slides while in a train
-    bool in_train = false;
+    bool in_train = false;  // up to here is what neighbours look at: two cache lines
+    int streak = 0;         // impacts on other balls in quick succession, ...
+    double last_impact = -kNever;
+    Eigen::Vector3i images = Eigen::Vector3i::Zero();  // edges of the periodic box that were crossed
+    std::vector<int> supports;                         // walls on which it rests, or slides while in a train
     bool fixed() const { return inverse_mass == 0; }
   };
 
