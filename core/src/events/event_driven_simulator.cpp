@@ -72,7 +72,7 @@ void EventDrivenSimulator::check_scene() const {
   if (scene_.period && !(scene_.period->allFinite() && scene_.period->minCoeff() > 0)) {
     throw std::invalid_argument("the edges of the periodic box must be > 0 and finite");
   }
-  const bool rules_make_sense = rules_.train_time >= 0 && rules_.instant >= 0 && rules_.collapse_time >= 0 &&
+  const bool rules_make_sense = rules_.train_time >= 0 && rules_.cascade_time >= 0 && rules_.collapse_time >= 0 &&
                                 rules_.collapse_impacts >= 0 && rules_.max_impacts_at_once > 0;
   if (!rules_make_sense) throw std::invalid_argument("the times and counts of the event rules must not be negative");
 }
@@ -190,7 +190,7 @@ std::optional<Impact> EventDrivenSimulator::collide(int i, int j) {
   std::optional<Impact> impact;
   if (approach > 0) {
     // Both counts must go on, so no short circuit here.
-    const bool collapse_a = collapses(a), collapse_b = collapses(b);
+    const bool collapse_a = collapses(a, j), collapse_b = collapses(b, i);
     const double e = collapse_a || collapse_b ? 1 : scene_.restitution;
     const double impulse = (1 + e) * approach / (a.inverse_mass + b.inverse_mass);
     a.v -= impulse * a.inverse_mass * n;
@@ -215,8 +215,7 @@ Impact EventDrivenSimulator::hit_wall(int i, int wall) {
   Body& body = bodies_[static_cast<std::size_t>(i)];
   fly(body);
   const Vec3& n = scene_.walls[static_cast<std::size_t>(wall)].plane.normal_W;
-  const bool collapsing = body.streak > rules_.collapse_impacts && now_ - body.last_impact <= rules_.collapse_time;
-  const double e = collapsing ? 1 : scene_.walls[static_cast<std::size_t>(wall)].restitution;
+  const double e = now_ <= body.elastic_until ? 1 : scene_.walls[static_cast<std::size_t>(wall)].restitution;
   const double approach = std::max(0.0, -n.dot(body.v));
   body.v += (1 + e) * approach * n;
   ++body.course;
@@ -242,11 +241,15 @@ void EventDrivenSimulator::cross(int i, int face) {
   schedule(i);
 }
 
-// Counts an impact of the body with a ball; true once there are too many in quick succession.
-bool EventDrivenSimulator::collapses(Body& body) const {
-  body.streak = now_ - body.last_impact <= rules_.collapse_time ? body.streak + 1 : 1;
+// Takes note of an impact of the body with a ball; true while such impacts are to lose no energy.
+bool EventDrivenSimulator::collapses(Body& body, int partner) const {
+  const double pause = now_ - body.last_impact;
+  body.streak = pause <= rules_.collapse_time ? body.streak + 1 : 1;
+  const bool again = partner == body.last_partner && pause > rules_.cascade_time && pause <= rules_.collapse_time;
+  if (again || body.streak > rules_.collapse_impacts) body.elastic_until = now_ + rules_.collapse_time;
+  body.last_partner = partner;
   body.last_impact = now_;
-  return body.streak > rules_.collapse_impacts;
+  return now_ <= body.elastic_until;
 }
 
 void EventDrivenSimulator::count_at_once() {
@@ -255,7 +258,7 @@ void EventDrivenSimulator::count_at_once() {
   if (events_at_once_ > rules_.max_impacts_at_once) {
     throw std::runtime_error("more than " + std::to_string(rules_.max_impacts_at_once) + " impacts at the time " +
                              std::to_string(now_) +
-                             " s: balls are caught between others; raise instant or collapse_time of the event rules");
+                             " s: balls are caught between others; raise collapse_time in the event rules");
   }
 }
 

@@ -106,7 +106,7 @@ EventDrivenSimulator::Event EventDrivenSimulator::predict(int i) {
     const int wall = static_cast<int>(w);
     if (std::find(me.supports.begin(), me.supports.end(), wall) != me.supports.end()) continue;
     const double t = now_ + wall_time(me, scene_.walls[w], 0);
-    if (t <= first.time) first = {t, wall, 0, EventKind::kWall};
+    if (t < kNever && t <= first.time) first = {t, wall, 0, EventKind::kWall};
   }
   cells_.visit_near(i, [&](int j, const Vec3& shift) {
     const Body& other = bodies_[static_cast<std::size_t>(j)];
@@ -116,7 +116,9 @@ EventDrivenSimulator::Event EventDrivenSimulator::predict(int i) {
       if (may_meet(other, train.wall, train.bounces.height(), me, 0, -shift, left)) leave_train(j);
     }
     const double t = now_ + meeting_time(sight(me, other, shift), me, other, first.time - now_);
-    if (t < first.time) first = {t, j, other.course, EventKind::kBall};
+    // Of two partners at the same time the one with the smaller index, in whatever order the cells list them.
+    const bool tie = t == first.time && first.kind == EventKind::kBall && j < first.partner;
+    if (t < first.time || tie) first = {t, j, other.course, EventKind::kBall};
   });
   return first;
 }

@@ -13,6 +13,9 @@ constexpr double kRoundings = 8;
 // cells are a hundredth wider than a diameter.
 constexpr double kHighestHop = 1e-3;
 
+// A hop that is lower than this [m] cannot be told from rest.
+double resolution(const Vec3& p, double radius) { return 4 * kEps * (p.cwiseAbs().maxCoeff() + radius); }
+
 bool holds(const std::vector<int>& walls, int wall) {
   return std::find(walls.begin(), walls.end(), wall) != walls.end();
 }
@@ -20,7 +23,7 @@ bool holds(const std::vector<int>& walls, int wall) {
 }  // namespace
 
 // The acceleration of a ball that rests on walls without friction: g + sum of lambda_k n_k with lambda_k >= 0, and none
-// into a wall. Walls that would have to pull are let go.
+// into a wall. Walls that would have to pull are let go. The velocity, too, loses what it has into or off the walls.
 void EventDrivenSimulator::support(Body& body) const {
   const Vec3& g = scene_.gravity_W;
   std::vector<int>& walls = body.supports;
@@ -48,6 +51,7 @@ void EventDrivenSimulator::support(Body& body) const {
       const double length = direction.norm();
       normals.col(k) = length > 1e-8 ? Vec3(direction / length) : Vec3::Zero();
       body.a -= normals.col(k) * normals.col(k).dot(body.a);
+      body.v -= normals.col(k) * normals.col(k).dot(body.v);
     }
     return;
   }
@@ -60,8 +64,9 @@ void EventDrivenSimulator::lift_or_keep(Body& body) const {
   std::erase_if(body.supports, [&](int wall) {
     const Vec3& n = scene_.walls[static_cast<std::size_t>(wall)].plane.normal_W;
     const double lift = n.dot(body.v), pull = std::max(0.0, -n.dot(scene_.gravity_W));
+    const double least = std::sqrt(2 * pull * resolution(body.p, body.radius));
     // Off the wall it flies; into the wall it has an impact, at once. In between it stays.
-    if (std::abs(lift) > std::max(kRoundings * kEps * speed, 0.5 * pull * rules_.instant)) return true;
+    if (std::abs(lift) > std::max(kRoundings * kEps * speed, least)) return true;
     body.v -= lift * n;
     return false;
   });
@@ -71,7 +76,6 @@ void EventDrivenSimulator::lift_or_keep(Body& body) const {
 void EventDrivenSimulator::rest_on(Body& body, int wall) const {
   const Plane& plane = scene_.walls[static_cast<std::size_t>(wall)].plane;
   body.p += (plane.offset + body.radius - plane.normal_W.dot(body.p)) * plane.normal_W;
-  body.v -= plane.normal_W.dot(body.v) * plane.normal_W;
   if (!holds(body.supports, wall)) body.supports.push_back(wall);
   support(body);
 }
@@ -87,18 +91,23 @@ bool EventDrivenSimulator::come_to_rest(int i, int wall, double rebound, double 
   }
   if (pull == 0) return false;
   const BounceTrain train{now_, rebound, pull, e};
-  if (2 * rebound / pull <= rules_.instant * (e < 1 ? 1 - e : 1)) {
+  const bool too_low = train.height() <= resolution(body.p, body.radius);
+  // On two walls at once, hops as low as that would be fed by the rounding of the other wall's position.
+  if (too_low && !body.supports.empty()) {
     rest_on(body, wall);
     return true;
   }
-  if (e < 1 && train.duration() <= rules_.train_time && undisturbed(i, wall, train)) {
+  const bool short_enough = train.duration() <= rules_.train_time || (too_low && rules_.train_time > 0);
+  if (e < 1 && short_enough && undisturbed(i, wall, train)) {
     rest_on(body, wall);  // from now on its p and v slide along the wall; the hops are added from the series
     body.in_train = true;
     trains_[i] = {train, wall};
     events_[static_cast<std::size_t>(i)] = {train.end(), wall, 0, EventKind::kTrainEnd};
     queue_.set(i, train.end());
+    return false;
   }
-  return false;
+  if (too_low) rest_on(body, wall);
+  return too_low;
 }
 
 double EventDrivenSimulator::hop_height(int i) const {

@@ -28,13 +28,14 @@
 //   before, the train is taken as a whole: bounce_train.hpp gives the state at every time in it, and at its end the
 //   ball rests on the wall and slides along it without friction. A ball that comes near in the meantime takes the train
 //   back: it is again followed bounce by bounce, from its exact state. Exact.
-// - Shorter than `instant`, a train counts as rest at once: the ball is then at most a instant^2/8, 1e-18 m, off.
-// - A ball that rests is woken by an impact that would lift it for longer than `instant`.
+// - A hop lower than the rounding of the ball's coordinates, 4 eps (|p| + r), about 1e-15 m, is rest. With trains this
+//   is met by balls that come to rest on two walls at once; without them it cuts the series short by some 1e-8 s.
+// - A ball that rests is woken by an impact that would lift it higher than that.
 // - Balls that collapse onto each other (three balls of small e; a ball that comes to rest on a ball). There is no
-//   series to sum, and the rule is a model: after collapse_impacts in quick succession the impacts are elastic, so that
-//   a ball on another keeps hopping within collapse_time, at heights of about 1e-9 m (the TC model, Luding and
-//   McNamara, Granular Matter 1, 113 (1998), with a count that leaves cascades alone). It costs 1e5 impacts a second
-//   for each contact: a pile is not what this simulator is for, and that is the price of zero tolerance.
+//   series to sum, and the rule is a model, the TC model of Luding and McNamara, Granular Matter 1, 113 (1998): balls
+//   that meet again within collapse_time lose no energy while that lasts. Impacts of one cascade (cascade_time) and the
+//   first of a pair are not touched. A ball on a ball so keeps hopping, about 1e-10 m high, and each such contact costs
+//   some 1e5 impacts a second: a pile is not what this simulator is for, and that is the price of zero tolerance.
 #pragma once
 
 #include <cstdint>
@@ -116,7 +117,9 @@ class EventDrivenSimulator {
     std::uint32_t course = 0;
     bool in_train = false;  // up to here is what neighbours look at: two cache lines
     int streak = 0;         // impacts on other balls in quick succession, ...
+    int last_partner = kNobody;
     double last_impact = -kNever;
+    double elastic_until = -kNever;
     Eigen::Vector3i images = Eigen::Vector3i::Zero();  // edges of the periodic box that were crossed
     std::vector<int> supports;                         // walls on which it rests, or slides while in a train
     bool fixed() const { return inverse_mass == 0; }
@@ -136,7 +139,7 @@ class EventDrivenSimulator {
   std::optional<Impact> collide(int i, int j);
   Impact hit_wall(int i, int wall);
   void cross(int i, int face);
-  bool collapses(Body& body) const;
+  bool collapses(Body& body, int partner) const;
   // Where a body is now, hops of a train included.
   void place_now(Body& body, std::size_t index) const;
 

@@ -48,12 +48,12 @@ struct EventRules {
   // the way, is no longer followed bounce by bounce: the sum of the geometric series says where it is and when it
   // stops. Exact, whatever the value; 0 follows every bounce.
   double train_time = 1e-3;
-  // A train of bounces (or one elastic hop) shorter than this is no longer told from rest.
-  double instant = 1e-9;
-  // A ball that has hit other balls more than `collapse_impacts` times in a row, none later than `collapse_time` after
-  // the one before, loses no more energy until it has had a longer pause.
+  // Two balls that meet again later than `cascade_time` and earlier than `collapse_time` after their last impact are
+  // taken to be in lasting contact: for that long, their impacts (on anything) lose no energy. So does a ball with more
+  // than `collapse_impacts` impacts on balls in a row, none later than collapse_time after the one before.
   double collapse_time = 1e-5;
-  int collapse_impacts = 8;
+  double cascade_time = 1e-9;
+  int collapse_impacts = 50;
   // More impacts than this at one and the same time are an error (std::runtime_error).
   long max_impacts_at_once = 1'000'000;
 };
