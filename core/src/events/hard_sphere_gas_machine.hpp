@@ -1,0 +1,72 @@
+// What turns inside HardSphereGas: spheres, cells and calendar, and the three kinds of event.
+//
+// Why one event a sphere is enough. Let meet(i) be the time for which sphere i is engaged, to collide or to look again.
+// For every two neighbours i and j whose flights would bring them together at t_ij, it always holds that
+//
+//   t_ij >= min(meet(i), meet(j))
+//
+// Searching for i takes the earliest t_ij for which j is not engaged before, so it holds afterwards for all j. Where j
+// leaves an old partner k for i, meet(j) falls and meet(k) stays: k looks again at the time of the lost collision, and
+// not before, since nothing earlier was open to it. So the earliest engagement of all is always a true collision.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hard_sphere_gas_calendar.hpp"
+#include "hard_sphere_gas_cells.hpp"
+#include "hard_sphere_gas_meeting.hpp"
+#include "plumbline/core/events/hard_sphere_gas.hpp"
+
+namespace plumbline {
+
+class HardSphereGas::Machine {
+ public:
+  Machine(std::span<const Vec3> positions, std::span<const Vec3> velocities, double diameter, const Vec3& box);
+
+  HardSphereCollision collide_next();
+  void run_until(double t);
+
+  double time() const { return epoch_ + now_; }
+  std::size_t size() const { return spheres_.size(); }
+  const HardSphereStatistics& statistics() const { return statistics_; }
+  std::vector<Vec3> positions() const;
+  std::vector<Vec3> velocities() const;
+  double velocity_square_sum() const;
+  double smallest_gap() const;
+
+ private:
+  using Id = std::int32_t;  // place in storage, which changes with every tidy_up
+  static constexpr Id kNobody = -1;
+
+  void place(Id id, const Vec3& position, const Vec3& velocity);
+  void tidy_up();
+
+  bool wake(Id id);  // true where that was a collision
+  void collide(Id a, Id b);
+  void cross(Id id);
+  void search(Id id);
+
+  void fly(GasSphere& sphere) const;
+  void find_crossing(Id id);
+  void engage_best(Id id);
+  void leave_partner(Id id);
+  Vec3 separation(const GasSphere& a, const GasSphere& b) const;
+
+  double diameter_;
+  Vec3 box_;
+  GasCells cells_;
+  PagedVector<GasSphere> spheres_;
+  std::vector<std::size_t> number_;  // by which the outside knows the sphere
+  GasCalendar calendar_;
+  GasCandidates near_;
+  double epoch_ = 0;  // when the clock was last set back
+  double now_ = 0;    // since then
+  std::uint64_t events_since_tidy_ = 0;
+  bool at_rest_ = false;  // nothing moves
+  HardSphereStatistics statistics_;
+};
+
+}  // namespace plumbline
