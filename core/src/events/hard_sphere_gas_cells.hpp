@@ -62,8 +62,8 @@ class GasCells {
   double width(int axis) const { return width_[axis]; }
   int count(int axis) const { return count_[axis]; }
   // From the middle of a cell to the middle of its k-th neighbour.
-  struct alignas(32) Shift {
-    double by[4];
+  struct alignas(64) Shift {
+    double by[8];  // x, y, z and zeros
   };
   const Shift* shifts() const { return shift_.data(); }
 

@@ -229,8 +229,8 @@ void HardSphereGas::Machine::search(Id id) {
 }
 
 void HardSphereGas::Machine::engage_best(Id id) {
-  find_meeting_times(spheres_[static_cast<std::size_t>(id)], now_, diameter_ * diameter_, spheres_.data(),
-                     cells_.shifts(), near_);
+  find_meeting_times_(spheres_[static_cast<std::size_t>(id)], now_, diameter_ * diameter_, spheres_.data(),
+                      cells_.shifts(), near_);
   Id partner = kNobody;
   double meet = calendar_[id].meet;
   for (int k = 0; k < near_.count; ++k) {
@@ -261,20 +261,22 @@ void HardSphereGas::Machine::fly(GasSphere& sphere) const {
   sphere.time = now_;
 }
 
-// From its place now: when, and through which side, it leaves its cell.
+// From its place now: when, and through which side, it leaves its cell. Without a jump on the sign of the velocity,
+// which is as good as random. Where v is 0 the quotient is infinite or, on the side itself, NaN, which is never less.
 void HardSphereGas::Machine::find_crossing(Id id) {
   const GasSphere& sphere = spheres_[static_cast<std::size_t>(id)];
-  GasCalendar::Event& event = calendar_[id];
-  event.cross = GasCalendar::kNever;
+  double wait = GasCalendar::kNever;
+  std::int32_t leaves_by = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double half = 0.5 * cells_.width(axis), v = sphere.v[axis];
-    const double way = v > 0 ? half - sphere.p[axis] : half + sphere.p[axis];
-    const double cross = v == 0 ? GasCalendar::kNever : now_ + (way < 0 ? 0 : way) / std::abs(v);
-    if (cross < event.cross) {
-      event.cross = cross;
-      event.leaves_by = axis;
-    }
+    const double v = sphere.v[axis];
+    const double way = 0.5 * cells_.width(axis) - std::copysign(1.0, v) * sphere.p[axis];
+    const double until = way / std::abs(v);
+    leaves_by = until < wait ? axis : leaves_by;
+    wait = until < wait ? until : wait;
   }
+  GasCalendar::Event& event = calendar_[id];
+  event.cross = now_ + (wait < 0 ? 0.0 : wait);
+  event.leaves_by = leaves_by;
 }
 
 // From a to b, at `now` of both clocks, the shortest way around the box.

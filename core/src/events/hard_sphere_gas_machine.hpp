@@ -62,6 +62,7 @@ class HardSphereGas::Machine {
   std::vector<std::size_t> number_;  // by which the outside knows the sphere
   GasCalendar calendar_;
   GasCandidates near_;
+  FindMeetingTimes find_meeting_times_ = meeting_times_by(widest_lanes());
   double epoch_ = 0;  // when the clock was last set back
   double now_ = 0;    // since then
   std::uint64_t events_since_tidy_ = 0;

@@ -1,55 +1,108 @@
-// This file alone is compiled with -O3 and without errno for sqrt, so that the second loop below becomes one of
-// vectors; and where the compiler can, once more for AVX2 and for AVX-512, chosen when the program starts. Every
-// operation is rounded as IEEE 754 says and none is fused or reordered, so all of them give the same bits.
+// This file alone is compiled with -O3 and without errno for sqrt, so that the roots of several lanes become one
+// instruction. Every operation is rounded as IEEE 754 says and none is fused or reordered: all widths give the same
+// bits.
 #include "hard_sphere_gas_meeting.hpp"
 
 #include <cmath>
 #include <limits>
 
-#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define PLUMBLINE_FOR_EACH_PROCESSOR __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define PLUMBLINE_FOR_EACH_PROCESSOR
-#endif
-
 namespace plumbline {
+namespace {
 
-PLUMBLINE_FOR_EACH_PROCESSOR
-void find_meeting_times(const GasSphere& me, double now, double diameter_square, const GasSphere* spheres,
-                        const GasCells::Shift* shifts, GasCandidates& near) {
-  constexpr int kBlock = 8;
-  struct alignas(64) {
-    double x[kBlock], y[kBlock], z[kBlock], vx[kBlock], vy[kBlock], vz[kBlock], time[kBlock];
-  } q;
-  for (int start = 0; start < near.count; start += kBlock) {
-    for (int k = 0; k < kBlock; ++k) {
+template <int kLanes>
+struct Vector {
+  using Type __attribute__((vector_size(kLanes * sizeof(double)))) = double;
+  using Mask __attribute__((vector_size(kLanes * sizeof(double)))) = long long;
+};
+
+// Rows become columns: first blocks of half the size change places across the diagonal, then quarters, ...
+template <int kLanes, int kBlock = kLanes / 2>
+[[gnu::always_inline]] inline void transpose(typename Vector<kLanes>::Type* rows) {
+  typename Vector<kLanes>::Mask upper, lower;
+  for (int k = 0; k < kLanes; ++k) {
+    upper[k] = (k & kBlock) == 0 ? k : kLanes + k - kBlock;
+    lower[k] = (k & kBlock) == 0 ? k + kBlock : kLanes + k;
+  }
+  for (int i = 0; i < kLanes; ++i) {
+    if ((i & kBlock) != 0) continue;
+    const auto a = rows[i], b = rows[i + kBlock];
+    rows[i] = __builtin_shuffle(a, b, upper);
+    rows[i + kBlock] = __builtin_shuffle(a, b, lower);
+  }
+  if constexpr (kBlock > 1) transpose<kLanes, kBlock / 2>(rows);
+}
+
+// kLanes candidates at once; what is left of the last group repeats its last candidate.
+template <int kLanes>
+[[gnu::always_inline]] inline void find_by_lanes(const GasSphere& me, double now, double diameter_square,
+                                                 const GasSphere* spheres, const GasCells::Shift* shifts,
+                                                 GasCandidates& near) {
+  using Lanes = typename Vector<kLanes>::Type;
+  const GasSphere own = me;  // a copy, which nothing written below can change
+  for (int start = 0; start < near.count; start += kLanes) {
+    // One sphere a row, eight numbers long: px py pz vx vy vz time and the cell, which nobody reads here.
+    Lanes rows[8];
+    for (int k = 0; k < kLanes; ++k) {
       const int c = start + k < near.count ? start + k : near.count - 1;
-      const GasSphere& other = spheres[near.id[c]];
-      const double* shift = shifts[near.neighbour[c]].by;
-      q.x[k] = other.p[0] + shift[0];
-      q.y[k] = other.p[1] + shift[1];
-      q.z[k] = other.p[2] + shift[2];
-      q.vx[k] = other.v[0];
-      q.vy[k] = other.v[1];
-      q.vz[k] = other.v[2];
-      q.time[k] = other.time;
+      const auto* numbers = reinterpret_cast<const Lanes*>(&spheres[near.id[c]]);
+      const auto* shift = reinterpret_cast<const Lanes*>(&shifts[near.neighbour[c]]);
+      for (int part = 0; part < 8 / kLanes; ++part) rows[part * kLanes + k] = numbers[part] + shift[part];
     }
-    for (int k = 0; k < kBlock; ++k) {
-      const double behind = now - q.time[k];
-      const double x = q.x[k] + q.vx[k] * behind - me.p[0];
-      const double y = q.y[k] + q.vy[k] * behind - me.p[1];
-      const double z = q.z[k] + q.vz[k] * behind - me.p[2];
-      const double vx = q.vx[k] - me.v[0], vy = q.vy[k] - me.v[1], vz = q.vz[k] - me.v[2];
+    for (int part = 0; part < 8 / kLanes; ++part) transpose<kLanes>(rows + part * kLanes);
+    alignas(64) double q[8][kLanes];
+    for (int part = 0; part < 8; ++part) *reinterpret_cast<Lanes*>(q[part]) = rows[part];
+    double* time = near.time + start;
+    for (int k = 0; k < kLanes; ++k) {
+      const double behind = now - q[6][k];
+      const double x = q[0][k] + q[3][k] * behind - own.p[0];
+      const double y = q[1][k] + q[4][k] * behind - own.p[1];
+      const double z = q[2][k] + q[5][k] * behind - own.p[2];
+      const double vx = q[3][k] - own.v[0], vy = q[4][k] - own.v[1], vz = q[5][k] - own.v[2];
       const double rv = x * vx + y * vy + z * vz;
       const double gap = x * x + y * y + z * z - diameter_square;
       const double radicand = rv * rv - (vx * vx + vy * vy + vz * vz) * gap;
       const bool meet = (rv < 0) & (radicand >= 0);
       const double root = std::sqrt(radicand < 0 ? 0.0 : radicand);
       const double wait = (gap < 0 ? 0.0 : gap) / (root - rv);
-      near.time[start + k] = meet ? now + wait : std::numeric_limits<double>::infinity();
+      time[k] = meet ? now + wait : std::numeric_limits<double>::infinity();
     }
   }
+}
+
+void find_two(const GasSphere& me, double now, double diameter_square, const GasSphere* spheres,
+              const GasCells::Shift* shifts, GasCandidates& near) {
+  find_by_lanes<2>(me, now, diameter_square, spheres, shifts, near);
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] void find_four(const GasSphere& me, double now, double diameter_square,
+                                       const GasSphere* spheres, const GasCells::Shift* shifts, GasCandidates& near) {
+  find_by_lanes<4>(me, now, diameter_square, spheres, shifts, near);
+}
+
+[[gnu::target("avx512f")]] void find_eight(const GasSphere& me, double now, double diameter_square,
+                                           const GasSphere* spheres, const GasCells::Shift* shifts,
+                                           GasCandidates& near) {
+  find_by_lanes<8>(me, now, diameter_square, spheres, shifts, near);
+}
+#endif
+
+}  // namespace
+
+int widest_lanes() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f")) return 8;
+  if (__builtin_cpu_supports("avx2")) return 4;
+#endif
+  return 2;
+}
+
+FindMeetingTimes meeting_times_by(int lanes) {
+#if defined(__x86_64__)
+  if (lanes == 8) return find_eight;
+  if (lanes == 4) return find_four;
+#endif
+  return find_two;
 }
 
 }  // namespace plumbline
