@@ -13,8 +13,8 @@ namespace plumbline {
 namespace {
 
 constexpr double kOverlapAllowed = 1e-9;  // of the diameter
-constexpr double kFewestDiameters = 8;    // of an edge: see GasCells
-constexpr double kMostCells = 1 << 28;    // of 32 bytes each
+constexpr double kFewestDiameters = 4;    // of an edge: see GasCells
+constexpr double kMostCells = 1 << 28;    // of 4 bytes each
 
 void check(std::span<const Vec3> positions, std::span<const Vec3> velocities, double diameter, const Vec3& box) {
   if (positions.size() != velocities.size()) {
@@ -26,7 +26,7 @@ void check(std::span<const Vec3> positions, std::span<const Vec3> velocities, do
   }
   if (!box.allFinite() || !(box.minCoeff() >= kFewestDiameters * diameter)) {
     throw std::invalid_argument(
-        "an edge of the box is shorter than 8 diameters: take more spheres, or the event-driven simulator for few");
+        "an edge of the box is shorter than 4 diameters: take more spheres, or the event-driven simulator for few");
   }
   if (!((box / diameter).prod() < kMostCells) || !((box / diameter).maxCoeff() < 65535)) {
     throw std::invalid_argument("the box has more than 2^28 diameters cubed: too many empty cells; take a smaller one");

@@ -9,29 +9,29 @@
 #include <cstdint>
 #include <limits>
 
+#include "hard_sphere_gas_cells.hpp"
 #include "hard_sphere_gas_pages.hpp"
 
 namespace plumbline {
 
 class GasCalendar {
  public:
-  static constexpr std::int32_t kNobody = -1;
+  static constexpr std::int32_t kNobody = 0;  // spheres are numbered from 1
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  // What a sphere waits for; one line of the cache. `meet` is the time of its collision with `partner`, or, when the
-  // partner has been taken away by a third sphere, the time at which to look for another one.
+  // What a sphere waits for; one line of the cache, which only those touch whose event it is.
   struct alignas(64) Event {
-    double due = kNever;    // when to wake: the smaller of the next two
-    double meet = kNever;   // collision, or search where partner == kNobody
-    double cross = kNever;  // leaves its cell
-    std::int32_t partner = kNobody;
+    double due = kNever;             // when to wake: the smaller of the next collision or search, and of `cross`
+    double cross = kNever;           // leaves its cell
+    std::int32_t partner = kNobody;  // of the collision; nobody: time to look for one
     std::int32_t before = kNobody, after = kNobody;  // in the list of the bucket
     std::int32_t bucket = 0;
     std::int32_t leaves_by = 0;  // axis of the side by which it leaves, 0 to 2
+    GasCell cell = {};           // in which it is
   };
 
   // `rate`: about how many events a sphere has per unit of time.
-  GasCalendar(std::size_t spheres, double rate) : events_(spheres) {
+  GasCalendar(std::size_t spheres, double rate) : events_(spheres + 1) {
     std::size_t buckets = 16;
     while (buckets < 4 * spheres) buckets *= 2;
     heads_.assign(buckets, kNobody);
@@ -49,10 +49,10 @@ class GasCalendar {
     current_ = 0;
   }
 
-  void insert(std::int32_t id) {
+  void insert(std::int32_t id, double due) {
     Event& event = (*this)[id];
-    event.due = event.meet < event.cross ? event.meet : event.cross;
-    std::int64_t bucket = bucket_of(event.due);
+    event.due = due;
+    std::int64_t bucket = bucket_of(due);
     if (bucket < current_) bucket = current_;
     if (bucket > current_ + mask_) bucket = current_ + mask_;
     event.bucket = static_cast<std::int32_t>(bucket & mask_);
@@ -107,7 +107,7 @@ class GasCalendar {
     while (waiting != kNobody) {
       const std::int32_t id = waiting;
       waiting = (*this)[id].after;
-      insert(id);
+      insert(id, (*this)[id].due);
     }
   }
 

@@ -35,11 +35,11 @@ double expected_rate(std::span<const Vec3> velocities, double diameter, const Ve
 }
 
 // Bits of x, y and z taken in turn (Morton's order): what is near in space is near in storage, along all three axes.
-std::uint64_t space_order(const std::uint16_t cell[3]) {
+std::uint64_t space_order(const GasCell& cell) {
   std::uint64_t key = 0;
   for (int bit = 0; bit < 16; ++bit) {
     for (int axis = 0; axis < 3; ++axis) {
-      key |= static_cast<std::uint64_t>(cell[axis] >> bit & 1) << (3 * bit + axis);
+      key |= static_cast<std::uint64_t>(cell.at[axis] >> bit & 1) << (3 * bit + axis);
     }
   }
   return key;
@@ -51,53 +51,61 @@ HardSphereGas::Machine::Machine(std::span<const Vec3> positions, std::span<const
                                 const Vec3& box)
     : diameter_(diameter),
       box_(box),
-      cells_(box.data(), diameter),
-      spheres_(positions.size()),
-      number_(positions.size()),
+      cells_(box.data(), diameter, positions.size()),
+      spheres_(positions.size() + 1),
+      number_(positions.size() + 1),
       calendar_(positions.size(), expected_rate(velocities, diameter, box)),
       at_rest_(mean_square(velocities) == 0) {
-  std::iota(number_.begin(), number_.end(), std::size_t{0});
-  for (std::size_t i = 0; i < positions.size(); ++i) place(static_cast<Id>(i), positions[i], velocities[i]);
-  for (Id id = 0; id < static_cast<Id>(size()); ++id) find_crossing(id);
+  // Nobody: stands nowhere and is never to be had.
+  spheres_[0] = {};
+  for (Id id = 1; id <= last(); ++id) {
+    const auto i = static_cast<std::size_t>(id) - 1;
+    number_[i + 1] = i;
+    place(id, positions[i], velocities[i]);
+    find_crossing(id);
+  }
   tidy_up();
-  for (Id id = 0; id < static_cast<Id>(size()); ++id) search(id);
+  for (Id id = 1; id <= last(); ++id) search(id);
 }
 
 void HardSphereGas::Machine::place(Id id, const Vec3& position, const Vec3& velocity) {
-  GasSphere& sphere = spheres_[static_cast<std::size_t>(id)];
+  GasSphere& s = sphere(id);
   for (int axis = 0; axis < 3; ++axis) {
     const double in_box = position[axis] - box_[axis] * std::floor(position[axis] / box_[axis]);
     const double width = cells_.width(axis);
     const int cell = std::clamp(static_cast<int>(in_box / width), 0, cells_.count(axis) - 1);
-    sphere.cell[axis] = static_cast<std::uint16_t>(cell);
-    sphere.p[axis] = in_box - (cell + 0.5) * width;
-    sphere.v[axis] = velocity[axis];
+    calendar_[id].cell.at[axis] = static_cast<std::uint16_t>(cell);
+    s.p[axis] = in_box - (cell + 0.5) * width;
+    s.v[axis] = velocity[axis];
   }
-  sphere.time = 0;
+  s.time = 0;
+  s.meet = GasCalendar::kNever;
 }
 
 // Sorts the spheres in storage and sets the clock back to 0. Nothing else changes: differences of times that are close
 // to each other are exact.
 void HardSphereGas::Machine::tidy_up() {
-  const std::size_t n = size();
-  std::vector<std::pair<std::uint64_t, std::size_t>> order(n);
-  for (std::size_t i = 0; i < n; ++i) order[i] = {space_order(spheres_[i].cell), i};
+  std::vector<std::pair<std::uint64_t, Id>> order;
+  order.reserve(size());
+  for (Id id = 1; id <= last(); ++id) order.emplace_back(space_order(calendar_[id].cell), id);
   std::sort(order.begin(), order.end());
-  std::vector<Id> place_of(n);
-  for (std::size_t i = 0; i < n; ++i) place_of[order[i].second] = static_cast<Id>(i);
+  std::vector<Id> place_of(size() + 1, kNobody);
+  Id next = 0;
+  for (const auto& [key, old] : order) place_of[static_cast<std::size_t>(old)] = ++next;
 
-  PagedVector<GasSphere> spheres(n);
-  PagedVector<GasCalendar::Event> events(n);
-  std::vector<std::size_t> number(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t old = order[i].second;
-    spheres[i] = spheres_[old];
+  PagedVector<GasSphere> spheres(spheres_.size());
+  PagedVector<GasCalendar::Event> events(spheres_.size());
+  std::vector<std::size_t> number(spheres_.size());
+  spheres[0] = spheres_[0];
+  for (Id old = 1; old <= last(); ++old) {
+    const auto i = static_cast<std::size_t>(place_of[static_cast<std::size_t>(old)]);
+    number[i] = this->number(old);
+    spheres[i] = sphere(old);
     spheres[i].time -= now_;
-    number[i] = number_[old];
-    GasCalendar::Event& event = events[i] = calendar_.events()[old];
-    event.meet -= now_;
-    event.cross -= now_;
-    if (event.partner != kNobody) event.partner = place_of[static_cast<std::size_t>(event.partner)];
+    spheres[i].meet -= now_;
+    events[i] = calendar_[old];
+    events[i].cross -= now_;
+    events[i].partner = place_of[static_cast<std::size_t>(events[i].partner)];
   }
   spheres_.swap(spheres);
   number_.swap(number);
@@ -108,11 +116,9 @@ void HardSphereGas::Machine::tidy_up() {
 
   cells_.clear();
   calendar_.restart();
-  for (Id id = 0; id < static_cast<Id>(n); ++id) {
-    if (!cells_.insert(id, spheres_[static_cast<std::size_t>(id)])) {
-      throw std::invalid_argument("more than 8 spheres in one cell: they overlap; move them apart");
-    }
-    calendar_.insert(id);
+  for (Id id = 1; id <= last(); ++id) {
+    cells_.insert(id, calendar_[id].cell);
+    enter(id);
   }
 }
 
@@ -120,12 +126,11 @@ HardSphereCollision HardSphereGas::Machine::collide_next() {
   if (at_rest_) throw std::runtime_error("spheres at rest never collide: give them velocities");
   const std::uint64_t most = statistics_.crossings + kCrossingsWithoutCollision + 1000 * size();
   for (;;) {
-    const Id id = calendar_.first();
+    const Id id = calendar_.first(), partner = calendar_[id].partner;
     now_ = calendar_[id].due;
-    const Id partner = calendar_[id].partner;
     if (wake(id)) {
-      const auto a = number_[static_cast<std::size_t>(id)], b = number_[static_cast<std::size_t>(partner)];
-      const HardSphereCollision result{time(), std::min(a, b), std::max(a, b)};
+      const HardSphereCollision result{time(), std::min(number(id), number(partner)),
+                                       std::max(number(id), number(partner))};
       if (events_since_tidy_ > kTidyInterval * size()) tidy_up();
       return result;
     }
@@ -150,7 +155,7 @@ void HardSphereGas::Machine::run_until(double t) {
 bool HardSphereGas::Machine::wake(Id id) {
   ++events_since_tidy_;
   const GasCalendar::Event& event = calendar_[id];
-  if (event.cross < event.meet) {
+  if (event.cross < sphere(id).meet) {
     cross(id);
     return false;
   }
@@ -165,10 +170,10 @@ bool HardSphereGas::Machine::wake(Id id) {
 // Equal masses: each takes the other's velocity along the line of centres. With r.r instead of the diameter squared
 // energy is kept to rounding whatever the error of r.
 void HardSphereGas::Machine::collide(Id a, Id b) {
-  GasSphere &sa = spheres_[static_cast<std::size_t>(a)], &sb = spheres_[static_cast<std::size_t>(b)];
+  GasSphere &sa = sphere(a), &sb = sphere(b);
   fly(sa);
   fly(sb);
-  const Vec3 r = separation(sa, sb);
+  const Vec3 r = separation(a, b);
   const double rv = r[0] * (sb.v[0] - sa.v[0]) + r[1] * (sb.v[1] - sa.v[1]) + r[2] * (sb.v[2] - sa.v[2]);
   const double rr = r.squaredNorm();
   for (int axis = 0; axis < 3; ++axis) {
@@ -191,62 +196,61 @@ void HardSphereGas::Machine::collide(Id a, Id b) {
 // Through the side into the next cell. Whom it meets in the 18 cells that it could already see is known; nine are new.
 void HardSphereGas::Machine::cross(Id id) {
   ++statistics_.crossings;
-  GasSphere& sphere = spheres_[static_cast<std::size_t>(id)];
+  GasSphere& s = sphere(id);
+  GasCell& cell = calendar_[id].cell;
   const int axis = calendar_[id].leaves_by;
-  const bool up = sphere.v[axis] > 0;
+  const bool up = s.v[axis] > 0;
   calendar_.remove(id);
-  fly(sphere);
-  cells_.remove(sphere, spheres_.data());
-  const int last = cells_.count(axis) - 1, from = sphere.cell[axis];
-  sphere.cell[axis] = static_cast<std::uint16_t>(up ? (from == last ? 0 : from + 1) : (from == 0 ? last : from - 1));
-  sphere.p[axis] += up ? -cells_.width(axis) : cells_.width(axis);
-  if (!cells_.insert(id, sphere)) throw std::logic_error("more than 8 spheres in one cell of a hard-sphere gas");
+  cells_.remove(id, cell);
+  fly(s);
+  const int last = cells_.count(axis) - 1, from = cell.at[axis];
+  cell.at[axis] = static_cast<std::uint16_t>(up ? (from == last ? 0 : from + 1) : (from == 0 ? last : from - 1));
+  s.p[axis] += up ? -cells_.width(axis) : cells_.width(axis);
+  cells_.insert(id, cell);
   find_crossing(id);
 
-  const auto around = cells_.around(sphere.cell);
-  static constexpr int kStride[3] = {1, 3, 9};
-  const int stride = kStride[axis];
+  static constexpr int kNew[3][9] = {{0, 3, 6, 9, 12, 15, 18, 21, 24},
+                                     {0, 1, 2, 9, 10, 11, 18, 19, 20},
+                                     {0, 1, 2, 3, 4, 5, 6, 7, 8}};  // on the lower side
+  static constexpr int kAcross[3] = {2, 6, 18};
+  const auto around = cells_.around(cell);
   near_.count = 0;
-  for (int k = 0; k < kNeighbours; ++k) {
-    if (k / stride % 3 == (up ? 2 : 0)) near_.append(cells_[around[static_cast<std::size_t>(k)]], k);
-  }
+  for (const int k : kNew[axis]) cells_.append(around, up ? k + kAcross[axis] : k, near_);
   engage_best(id);
-  calendar_.insert(id);
+  enter(id);
 }
 
 // Whom does it meet first? Asked when its flight has changed or its partner is gone.
 void HardSphereGas::Machine::search(Id id) {
   ++statistics_.predictions;
-  GasSphere& sphere = spheres_[static_cast<std::size_t>(id)];
   calendar_.remove(id);
-  calendar_[id].meet = GasCalendar::kNever;
-  fly(sphere);
-  const auto around = cells_.around(sphere.cell);
+  sphere(id).meet = GasCalendar::kNever;
+  fly(sphere(id));
+  const auto around = cells_.around(calendar_[id].cell);
   near_.count = 0;
-  for (int k = 0; k < kNeighbours; ++k) near_.append(cells_[around[static_cast<std::size_t>(k)]], k);
+  for (int k = 0; k < kNeighbours; ++k) cells_.append(around, k, near_);
   engage_best(id);
-  calendar_.insert(id);
+  enter(id);
 }
 
 void HardSphereGas::Machine::engage_best(Id id) {
-  find_meeting_times_(spheres_[static_cast<std::size_t>(id)], now_, diameter_ * diameter_, spheres_.data(),
-                      cells_.shifts(), near_);
+  GasSphere& s = sphere(id);
+  find_meeting_times_(s, now_, diameter_ * diameter_, spheres_.data(), cells_.shifts(), near_);
   Id partner = kNobody;
-  double meet = calendar_[id].meet;
+  double meet = s.meet;
   for (int k = 0; k < near_.count; ++k) {
-    if (near_.time[k] < meet && near_.time[k] < calendar_[near_.id[k]].meet) {
-      meet = near_.time[k];
-      partner = near_.id[k];
-    }
+    const bool sooner = near_.time[k] < meet;
+    meet = sooner ? near_.time[k] : meet;
+    partner = sooner ? near_.id[k] : partner;
   }
   if (partner == kNobody) return;
   leave_partner(id);
   leave_partner(partner);
-  calendar_.remove(partner);
-  calendar_[id].meet = calendar_[partner].meet = meet;
+  s.meet = sphere(partner).meet = meet;
   calendar_[id].partner = partner;
   calendar_[partner].partner = id;
-  calendar_.insert(partner);
+  calendar_.remove(partner);
+  enter(partner);
 }
 
 // The one who is left looks for another at the time of the collision that is lost.
@@ -255,53 +259,59 @@ void HardSphereGas::Machine::leave_partner(Id id) {
   if (left != kNobody) calendar_[left].partner = kNobody;
 }
 
-void HardSphereGas::Machine::fly(GasSphere& sphere) const {
-  const double duration = now_ - sphere.time;
-  for (int axis = 0; axis < 3; ++axis) sphere.p[axis] += sphere.v[axis] * duration;
-  sphere.time = now_;
+void HardSphereGas::Machine::enter(Id id) {
+  const double meet = sphere(id).meet, cross = calendar_[id].cross;
+  calendar_.insert(id, meet < cross ? meet : cross);
+}
+
+void HardSphereGas::Machine::fly(GasSphere& s) const {
+  const double duration = now_ - s.time;
+  for (int axis = 0; axis < 3; ++axis) s.p[axis] += s.v[axis] * duration;
+  s.time = now_;
 }
 
 // From its place now: when, and through which side, it leaves its cell. Without a jump on the sign of the velocity,
 // which is as good as random. Where v is 0 the quotient is infinite or, on the side itself, NaN, which is never less.
 void HardSphereGas::Machine::find_crossing(Id id) {
-  const GasSphere& sphere = spheres_[static_cast<std::size_t>(id)];
+  const GasSphere& s = sphere(id);
   double wait = GasCalendar::kNever;
   std::int32_t leaves_by = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double v = sphere.v[axis];
-    const double way = 0.5 * cells_.width(axis) - std::copysign(1.0, v) * sphere.p[axis];
-    const double until = way / std::abs(v);
+    const double way = 0.5 * cells_.width(axis) - std::copysign(1.0, s.v[axis]) * s.p[axis];
+    const double until = way / std::abs(s.v[axis]);
     leaves_by = until < wait ? axis : leaves_by;
     wait = until < wait ? until : wait;
   }
-  GasCalendar::Event& event = calendar_[id];
-  event.cross = now_ + (wait < 0 ? 0.0 : wait);
-  event.leaves_by = leaves_by;
+  calendar_[id].cross = now_ + (wait < 0 ? 0.0 : wait);
+  calendar_[id].leaves_by = leaves_by;
 }
 
-// From a to b, at `now` of both clocks, the shortest way around the box.
-Vec3 HardSphereGas::Machine::separation(const GasSphere& a, const GasSphere& b) const {
+// From a to b at this moment, the shortest way around the box.
+Vec3 HardSphereGas::Machine::separation(Id a, Id b) const {
+  GasSphere sa = sphere(a), sb = sphere(b);
+  fly(sa);
+  fly(sb);
   Vec3 r;
   for (int axis = 0; axis < 3; ++axis) {
-    int cells = b.cell[axis] - a.cell[axis];
+    int cells = calendar_[b].cell.at[axis] - calendar_[a].cell.at[axis];
     if (2 * cells > cells_.count(axis)) cells -= cells_.count(axis);
     if (2 * cells < -cells_.count(axis)) cells += cells_.count(axis);
-    r[axis] = b.p[axis] + cells * cells_.width(axis) - a.p[axis];
+    r[axis] = sb.p[axis] + cells * cells_.width(axis) - sa.p[axis];
   }
   return r;
 }
 
 std::vector<Vec3> HardSphereGas::Machine::positions() const {
   std::vector<Vec3> result(size());
-  for (std::size_t i = 0; i < size(); ++i) {
-    GasSphere sphere = spheres_[i];
-    fly(sphere);
+  for (Id id = 1; id <= last(); ++id) {
+    GasSphere s = sphere(id);
+    fly(s);
     for (int axis = 0; axis < 3; ++axis) {
-      double p = sphere.p[axis] + (sphere.cell[axis] + 0.5) * cells_.width(axis);
+      double p = s.p[axis] + (calendar_[id].cell.at[axis] + 0.5) * cells_.width(axis);
       // Between two events a sphere may stand a rounding outside of its cell, and so of the box.
       if (p < 0) p += box_[axis];
       if (p >= box_[axis]) p -= box_[axis];
-      result[number_[i]][axis] = p;
+      result[number(id)][axis] = p;
     }
   }
   return result;
@@ -309,8 +319,7 @@ std::vector<Vec3> HardSphereGas::Machine::positions() const {
 
 std::vector<Vec3> HardSphereGas::Machine::velocities() const {
   std::vector<Vec3> result(size());
-  for (std::size_t i = 0; i < size(); ++i)
-    result[number_[i]] = Vec3(spheres_[i].v[0], spheres_[i].v[1], spheres_[i].v[2]);
+  for (Id id = 1; id <= last(); ++id) result[number(id)] = Vec3(sphere(id).v[0], sphere(id).v[1], sphere(id).v[2]);
   return result;
 }
 
@@ -323,18 +332,12 @@ double HardSphereGas::Machine::velocity_square_sum() const {
 double HardSphereGas::Machine::smallest_gap() const {
   double smallest = std::numeric_limits<double>::infinity();
   GasCandidates near;
-  for (std::size_t i = 0; i < size(); ++i) {
-    GasSphere a = spheres_[i];
-    fly(a);
-    const auto around = cells_.around(a.cell);
+  for (Id a = 1; a <= last(); ++a) {
+    const auto around = cells_.around(calendar_[a].cell);
     near.count = 0;
-    for (int k = 0; k < kNeighbours; ++k) near.append(cells_[around[static_cast<std::size_t>(k)]], k);
+    for (int k = 0; k < kNeighbours; ++k) cells_.append(around, k, near);
     for (int k = 0; k < near.count; ++k) {
-      const auto j = static_cast<std::size_t>(near.id[k]);
-      if (j == i) continue;
-      GasSphere b = spheres_[j];
-      fly(b);
-      smallest = std::min(smallest, separation(a, b).norm() / diameter_ - 1);
+      if (near.id[k] != a) smallest = std::min(smallest, separation(a, near.id[k]).norm() / diameter_ - 1);
     }
   }
   return smallest;

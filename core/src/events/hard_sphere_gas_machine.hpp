@@ -30,7 +30,7 @@ class HardSphereGas::Machine {
   void run_until(double t);
 
   double time() const { return epoch_ + now_; }
-  std::size_t size() const { return spheres_.size(); }
+  std::size_t size() const { return number_.size() - 1; }
   const HardSphereStatistics& statistics() const { return statistics_; }
   std::vector<Vec3> positions() const;
   std::vector<Vec3> velocities() const;
@@ -38,8 +38,13 @@ class HardSphereGas::Machine {
   double smallest_gap() const;
 
  private:
-  using Id = std::int32_t;  // place in storage, which changes with every tidy_up
-  static constexpr Id kNobody = -1;
+  using Id = std::int32_t;  // place in storage, from 1 on; changes with every tidy_up
+  static constexpr Id kNobody = GasCells::kNobody;
+
+  Id last() const { return static_cast<Id>(size()); }
+  GasSphere& sphere(Id id) { return spheres_[static_cast<std::size_t>(id)]; }
+  const GasSphere& sphere(Id id) const { return spheres_[static_cast<std::size_t>(id)]; }
+  std::size_t number(Id id) const { return number_[static_cast<std::size_t>(id)]; }
 
   void place(Id id, const Vec3& position, const Vec3& velocity);
   void tidy_up();
@@ -53,12 +58,13 @@ class HardSphereGas::Machine {
   void find_crossing(Id id);
   void engage_best(Id id);
   void leave_partner(Id id);
-  Vec3 separation(const GasSphere& a, const GasSphere& b) const;
+  void enter(Id id);
+  Vec3 separation(Id a, Id b) const;
 
   double diameter_;
   Vec3 box_;
   GasCells cells_;
-  PagedVector<GasSphere> spheres_;
+  PagedVector<GasSphere> spheres_;   // the first is nobody
   std::vector<std::size_t> number_;  // by which the outside knows the sphere
   GasCalendar calendar_;
   GasCandidates near_;

@@ -40,7 +40,7 @@ template <int kLanes>
   using Lanes = typename Vector<kLanes>::Type;
   const GasSphere own = me;  // a copy, which nothing written below can change
   for (int start = 0; start < near.count; start += kLanes) {
-    // One sphere a row, eight numbers long: px py pz vx vy vz time and the cell, which nobody reads here.
+    // One sphere a row, eight numbers long: px py pz vx vy vz time meet.
     Lanes rows[8];
     for (int k = 0; k < kLanes; ++k) {
       const int c = start + k < near.count ? start + k : near.count - 1;
@@ -61,9 +61,9 @@ template <int kLanes>
       const double rv = x * vx + y * vy + z * vz;
       const double gap = x * x + y * y + z * z - diameter_square;
       const double radicand = rv * rv - (vx * vx + vy * vy + vz * vz) * gap;
-      const bool meet = (rv < 0) & (radicand >= 0);
       const double root = std::sqrt(radicand < 0 ? 0.0 : radicand);
       const double wait = (gap < 0 ? 0.0 : gap) / (root - rv);
+      const bool meet = (rv < 0) & (radicand >= 0) & (now + wait < q[7][k]);
       time[k] = meet ? now + wait : std::numeric_limits<double>::infinity();
     }
   }

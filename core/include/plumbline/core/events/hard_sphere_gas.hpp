@@ -16,7 +16,7 @@
 // Units: SI [m, m/s, s]; since only ratios matter, a diameter of 1 and a mean square velocity of 3 (kT/m = 1) are just
 // as good. The mass, equal for all, drops out.
 //
-// Range of validity: box edges of at least 8 diameters, and fluid to solid density: memory and time go with the
+// Range of validity: box edges of at least 4 diameters, and fluid to solid density: memory and time go with the
 // number of cells, which is about the volume over the diameter cubed, so that below 5 % of close packing the empty
 // cells dominate. Simultaneous collisions of different pairs are taken in the order of the spheres' storage; they do
 // not influence each other. Three spheres that touch at one instant are two collisions, one after the other.
@@ -55,7 +55,7 @@ class HardSphereGas {
  public:
   // Centres [m] (anywhere: the box repeats), velocities [m/s], diameter [m], edges of the box [m].
   // Throws std::invalid_argument for lists of different length, numbers that are not finite, a diameter that is not
-  // > 0, edges below 8 diameters, and spheres that overlap by more than 1e-9 of the diameter.
+  // > 0, edges below 4 diameters, and spheres that overlap by more than 1e-9 of the diameter.
   HardSphereGas(std::span<const Vec3> positions, std::span<const Vec3> velocities, double diameter, const Vec3& box);
   ~HardSphereGas();
   HardSphereGas(HardSphereGas&&) noexcept;
