@@ -1,9 +1,6 @@
 #include "plumbline/core/events/hard_sphere_gas.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 
