@@ -12,7 +12,7 @@ namespace {
 constexpr double kContactTolerance = 1e-10;
 
 // Cells a sphere, at most. More and smaller ones leave fewer neighbours to look at, but have to be counted and summed.
-constexpr double kCellsPerSphere = 2;
+constexpr double kCellsPerSphere = 4;
 
 void check(const SphereBoxScene& scene) {
   if (!scene.lower_W.allFinite() || !scene.upper_W.allFinite() || !((scene.upper_W - scene.lower_W).minCoeff() > 0)) {
