@@ -1,0 +1,131 @@
+#include "plumbline/core/constraints/constraint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace plumbline {
+
+namespace {
+
+constexpr int kMostIterations = 100;
+
+// The particles displaced by d.
+PerParticle displaced(std::span<const Vec3> p_W, const PerParticle& d_W) {
+  PerParticle result = d_W;
+  for (std::size_t i = 0; i < p_W.size(); ++i) result[i] += p_W[i];
+  return result;
+}
+
+// How well q can be known at all: each coordinate is rounded, and q follows it by its gradient.
+double rounding(const PerParticle& gradient, std::span<const Vec3> p_W) {
+  double sum = 0;
+  for (std::size_t i = 0; i < p_W.size(); ++i) sum += gradient[i].norm() * p_W[i].norm();
+  return 2 * std::numeric_limits<double>::epsilon() * sum;
+}
+
+// sum w_i a_i . b_i
+double weighted(const PerParticle& a, const PerParticle& b, std::span<const double> w) {
+  double sum = 0;
+  for (std::size_t i = 0; i < w.size(); ++i) sum += w[i] * a[i].dot(b[i]);
+  return sum;
+}
+
+double cost(const PerParticle& d_W, std::span<const double> w) {
+  double sum = 0;
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    if (w[i] > 0) sum += d_W[i].squaredNorm() / w[i];
+  }
+  return sum;
+}
+
+// From a motion that meets the constraint to the smallest one that does: d <- -lambda W g(p + d) with the lambda for
+// which the linearised constraint holds, until d repeats itself. Its fixed points are Lagrange's condition.
+MinimalMotion shortened(const Constraint& constraint, const MinimalMotion& found, std::span<const Vec3> p_W,
+                        std::span<const double> w) {
+  MinimalMotion motion = found;
+  for (int k = 0; k < kMostIterations; ++k) {
+    const PerParticle at = displaced(p_W, motion.d_W);
+    const std::span<const Vec3> end(at.data(), p_W.size());
+    const PerParticle g = constraint.gradient(end);
+    const double leverage = weighted(g, g, w);
+    if (!(leverage > 0)) return found;
+    double along = 0;
+    for (std::size_t i = 0; i < p_W.size(); ++i) along += g[i].dot(motion.d_W[i]);
+    const double lambda = (constraint.violation(end) - along) / leverage;
+    double change = 0;
+    for (std::size_t i = 0; i < p_W.size(); ++i) {
+      const Vec3 d = -lambda * w[i] * g[i];
+      change = std::max(change, (d - motion.d_W[i]).norm());
+      motion.d_W[i] = d;
+    }
+    motion.multiplier = lambda;
+    if (change <= 1e-15 * std::sqrt(cost(motion.d_W, w) * *std::max_element(w.begin(), w.end()))) break;
+  }
+  // Far from the constraint the repetition may wander off; then the first motion is kept.
+  const PerParticle at = displaced(p_W, motion.d_W);
+  const std::span<const Vec3> end(at.data(), p_W.size());
+  const bool met = std::abs(constraint.violation(end)) <= 4 * rounding(constraint.gradient(end), end);
+  return met && cost(motion.d_W, w) <= cost(found.d_W, w) ? motion : found;
+}
+
+}  // namespace
+
+Constraint::Constraint(std::initializer_list<std::size_t> particles) : count_(particles.size()) {
+  if (count_ == 0 || count_ > kMostParticles)
+    throw std::invalid_argument("a constraint holds 1 to 3 particles: make several of it");
+  std::copy(particles.begin(), particles.end(), particles_.begin());
+  for (std::size_t i = 0; i < count_; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (particles_[i] == particles_[j])
+        throw std::invalid_argument("a constraint names particle " + std::to_string(particles_[i]) +
+                                    " twice: its particles must differ");
+    }
+  }
+}
+
+MinimalMotion Constraint::minimal_motion(std::span<const Vec3> p_W, std::span<const double> inverse_masses) const {
+  MinimalMotion motion;
+  double excess = violation(p_W);
+  if (excess == 0) return motion;
+  for (int k = 0; k < kMostIterations && excess != 0; ++k) {
+    const PerParticle at = displaced(p_W, motion.d_W);
+    const PerParticle g = gradient({at.data(), p_W.size()});
+    const double leverage = weighted(g, g, inverse_masses);
+    if (leverage == 0) return {};
+    if (k > 0 && std::abs(excess) <= rounding(g, p_W)) break;
+    const double lambda = excess / leverage;
+    for (std::size_t i = 0; i < p_W.size(); ++i) motion.d_W[i] -= lambda * inverse_masses[i] * g[i];
+    motion.multiplier += lambda;
+    const PerParticle end = displaced(p_W, motion.d_W);
+    excess = violation({end.data(), p_W.size()});
+  }
+  return shortened(*this, motion, p_W, inverse_masses);
+}
+
+MinimalMotion motion_along(const Constraint& constraint, const PerParticle& direction, std::span<const Vec3> p_W,
+                           std::span<const double> inverse_masses) {
+  MinimalMotion motion;
+  double excess = constraint.violation(p_W);
+  for (int k = 0; k < kMostIterations && excess != 0; ++k) {
+    const PerParticle at = displaced(p_W, motion.d_W);
+    const PerParticle g = constraint.gradient({at.data(), p_W.size()});
+    const double leverage = weighted(g, direction, inverse_masses);
+    if (leverage == 0) return {};
+    if (k > 0 && std::abs(excess) <= rounding(g, p_W)) break;
+    motion.multiplier += excess / leverage;
+    for (std::size_t i = 0; i < p_W.size(); ++i) motion.d_W[i] = -motion.multiplier * inverse_masses[i] * direction[i];
+    const PerParticle end = displaced(p_W, motion.d_W);
+    excess = constraint.violation({end.data(), p_W.size()});
+  }
+  return motion;
+}
+
+double outside(double value, double low, double high) {
+  if (value < low) return value - low;
+  if (value > high) return value - high;
+  return value - value;  // 0, or NaN
+}
+
+}  // namespace plumbline
