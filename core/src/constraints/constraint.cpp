@@ -9,7 +9,7 @@ namespace plumbline {
 
 namespace {
 
-constexpr int kMostIterations = 100;
+constexpr int kMostIterations = 300;
 
 // The particles displaced by d.
 PerParticle displaced(std::span<const Vec3> p_W, const PerParticle& d_W) {
@@ -40,11 +40,16 @@ double cost(const PerParticle& d_W, std::span<const double> w) {
   return sum;
 }
 
-// From a motion that meets the constraint to the smallest one that does: d <- -lambda W g(p + d) with the lambda for
-// which the linearised constraint holds, until d repeats itself. Its fixed points are Lagrange's condition.
+// From a motion that meets the constraint to the smallest one that does: d -> -lambda W g(p + d) with the lambda for
+// which the linearised constraint holds, until d repeats itself. Its fixed points are Lagrange's condition. Where q is
+// curved so strongly that d would swing about its end, only a share of each change is made; near a minimum a small enough
+// share always converges, since the eigenvalues of the map are real and below 1 there (second-order condition).
 MinimalMotion shortened(const Constraint& constraint, const MinimalMotion& found, std::span<const Vec3> p_W,
                         std::span<const double> w) {
-  MinimalMotion motion = found;
+  const double lightest = *std::max_element(w.begin(), w.end());
+  MinimalMotion motion = found, next;
+  PerParticle change, before = motion.d_W;
+  double share = 1;
   for (int k = 0; k < kMostIterations; ++k) {
     const PerParticle at = displaced(p_W, motion.d_W);
     const std::span<const Vec3> end(at.data(), p_W.size());
@@ -53,21 +58,25 @@ MinimalMotion shortened(const Constraint& constraint, const MinimalMotion& found
     if (!(leverage > 0)) return found;
     double along = 0;
     for (std::size_t i = 0; i < p_W.size(); ++i) along += g[i].dot(motion.d_W[i]);
-    const double lambda = (constraint.violation(end) - along) / leverage;
-    double change = 0;
+    next.multiplier = (constraint.violation(end) - along) / leverage;
+    double largest = 0, turned = 0, turn = 0;
     for (std::size_t i = 0; i < p_W.size(); ++i) {
-      const Vec3 d = -lambda * w[i] * g[i];
-      change = std::max(change, (d - motion.d_W[i]).norm());
-      motion.d_W[i] = d;
+      next.d_W[i] = -next.multiplier * w[i] * g[i];
+      change[i] = next.d_W[i] - motion.d_W[i];
+      largest = std::max(largest, change[i].norm());
+      turned += before[i].dot(change[i] - before[i]);
+      turn += (change[i] - before[i]).squaredNorm();
     }
-    motion.multiplier = lambda;
-    if (change <= 1e-15 * std::sqrt(cost(motion.d_W, w) * *std::max_element(w.begin(), w.end()))) break;
+    if (largest <= 1e-15 * std::sqrt(cost(next.d_W, w) * lightest)) break;
+    if (k > 0 && turn > 0) share = std::clamp(-share * turned / turn, 0.02, 1.0);
+    before = change;
+    for (std::size_t i = 0; i < p_W.size(); ++i) motion.d_W[i] += share * change[i];
   }
   // Far from the constraint the repetition may wander off; then the first motion is kept.
-  const PerParticle at = displaced(p_W, motion.d_W);
+  const PerParticle at = displaced(p_W, next.d_W);
   const std::span<const Vec3> end(at.data(), p_W.size());
   const bool met = std::abs(constraint.violation(end)) <= 4 * rounding(constraint.gradient(end), end);
-  return met && cost(motion.d_W, w) <= cost(found.d_W, w) ? motion : found;
+  return met && cost(next.d_W, w) <= cost(found.d_W, w) * (1 + 1e-14) ? next : found;
 }
 
 }  // namespace

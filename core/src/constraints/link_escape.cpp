@@ -1,6 +1,7 @@
 #include "plumbline/core/constraints/link_escape.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -9,7 +10,7 @@ namespace plumbline {
 namespace {
 
 constexpr double kRounding = 1e-14;  // of positions, relative to their size
-constexpr int kMostIterations = 200;
+constexpr int kMostIterations = 500;
 
 double size(const Link& link, const Obstacle& o) {
   return (link.a_W - o.p_WO).norm() + (link.b_W - o.p_WO).norm() + o.p_WO.norm();
@@ -27,7 +28,8 @@ LinkGap gap_after(const Link& link, const Obstacle& o, const LinkMotion& motion)
 }
 
 // The smallest motion with e . (d_b - d_a) = stretch (length kept) and n_a . d_a + n_b . d_b = rise for each given end:
-// repeated linearisation about where the motion ends, whose fixed point is Lagrange's condition of constraint.hpp.
+// repeated linearisation about where the motion ends, whose fixed point is Lagrange's condition of constraint.hpp. Shares
+// of each change as in constraint.cpp.
 struct EndClearance {
   double share_a, share_b;  // of the gap's gradient
   Vec3 normal_W;
@@ -39,8 +41,10 @@ std::optional<LinkMotion> constrained_motion(const Link& link, const Obstacle& o
   using Matrix = Eigen::Matrix<double, kRows, 6>;
   using Vector = Eigen::Matrix<double, kRows, 1>;
   const double length = (link.b_W - link.a_W).norm();
-  Eigen::Matrix<double, 6, 1> w, d = Eigen::Matrix<double, 6, 1>::Zero();
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  Vector6 w, before = Vector6::Zero(), d = Vector6::Zero();
   w << Vec3::Constant(link.inverse_mass_a), Vec3::Constant(link.inverse_mass_b);
+  double share = 1;
   for (int k = 0; k < kMostIterations; ++k) {
     const Vec3 a = link.a_W + d.template head<3>(), b = link.b_W + d.template tail<3>();
     const Vec3 e = (b - a).normalized();
@@ -54,10 +58,13 @@ std::optional<LinkMotion> constrained_motion(const Link& link, const Obstacle& o
       c[row] = end.gap;
     }
     const Matrix gw = g * w.asDiagonal();
-    const Eigen::Matrix<double, 6, 1> next = gw.transpose() * (gw * g.transpose()).fullPivLu().solve(g * d - c);
-    const double change = (next - d).norm();
-    d = next;
-    if (!(change > kRounding * 0.01 * size(link, o))) break;
+    const Vector6 next = gw.transpose() * (gw * g.transpose()).fullPivLu().solve(g * d - c);
+    const Vector6 change = next - d;
+    const double turn = (change - before).squaredNorm();
+    if (k > 0 && turn > 0) share = std::clamp(-share * before.dot(change - before) / turn, 0.02, 1.0);
+    before = change;
+    d += share * change;
+    if (!(change.norm() > kRounding * 0.01 * size(link, o))) break;
   }
   const LinkMotion motion = motion_of(link, d.template head<3>(), d.template tail<3>());
   const double stretch = (link.b_W + motion.d_b_W - link.a_W - motion.d_a_W).norm() - length;

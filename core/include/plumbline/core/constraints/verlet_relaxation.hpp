@@ -6,14 +6,15 @@
 // No velocity is stored, so a particle that a constraint moved has thereby changed its velocity, and the multiplier of
 // each constraint divided by dt^2 is the force that it exerts: forces travel through the constraints (slide 35).
 //
-// Which way a constraint pulls matters. With converged relaxation, for a pendulum or chain of frequency w:
+// Which way a constraint pulls matters. With converged relaxation, for a pendulum of frequency w:
 //
 //   Pull::kMinimal  along the gradient where the step ends (slide 34). The force of the constraint is taken at the end
 //   of
 //                   the step like that of implicit Euler: small oscillations have z = 1/(1 - i w dt), that is frequency
 //                   atan(w dt)/dt, second order, but amplitude |z| = 1/sqrt(1 + w^2 dt^2) a step: they die out like
 //                   exp(-w^2 dt t/2), first order in dt. A rod that turns freely by the angle phi a step turns by
-//                   atan(sin(phi)/(2 - cos(phi))) in the next: angular momentum is lost in first order too.
+//                   atan(sin(phi)/(2 - cos(phi))) in the next: angular momentum is lost in first order too. In a chain
+//                   each link is put right where the others are not yet, so orders stay and formulas do not.
 //   Pull::kStart    along the gradient where the step starts: SHAKE (Ryckaert, Ciccotti, Berendsen, J. Comput. Phys. 23
 //                   (1977) 327). Second order in all: frequency 2 asin(w dt/2)/dt, no damping; without outer forces the
 //                   angular momentum sum m p_n x p_n+1/dt is kept to rounding, converged or not. Explicit: its tension
