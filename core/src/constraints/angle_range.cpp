@@ -26,14 +26,16 @@ Arms arms(std::span<const Vec3> p_W, const std::optional<Vec3>& axis_W) {
 }  // namespace
 
 AngleRange::AngleRange(std::size_t first, std::size_t joint, std::size_t third, double low, double high)
-    : Constraint({first, joint, third}), low_(low), high_(high) {
+    : Constraint({first, joint, third}, low, high) {
   if (!(0 <= low && low <= high && high <= kPi))
     throw std::invalid_argument("an angle in space needs 0 <= low <= high <= pi; give an axis for signed angles");
 }
 
 AngleRange::AngleRange(std::size_t first, std::size_t joint, std::size_t third, double low, double high,
                        const Vec3& axis_W)
-    : Constraint({first, joint, third}), low_(low), high_(high), axis_W_(axis_W.normalized()) {
+    : Constraint({first, joint, third}, -0.5 * (high - low), 0.5 * (high - low)),
+      middle_(0.5 * (low + high)),
+      axis_W_(axis_W.normalized()) {
   if (!(low <= high && high <= low + 2 * kPi))
     throw std::invalid_argument("an angle in a plane needs low <= high <= low + 2 pi, in radians");
   if (!(axis_W.norm() > 0)) throw std::invalid_argument("an angle in a plane needs an axis that is not zero");
@@ -45,12 +47,8 @@ double AngleRange::angle(std::span<const Vec3> p_W) const {
   return std::atan2(axis_W_ ? axis_W_->dot(across) : across.norm(), u.dot(v));
 }
 
-double AngleRange::violation(std::span<const Vec3> p_W) const {
-  const double q = angle(p_W);
-  if (!axis_W_) return outside(q, low_, high_);
-  // On the circle: measured from the middle of the range, the nearer way round.
-  const double middle = 0.5 * (low_ + high_), half = 0.5 * (high_ - low_);
-  return outside(std::remainder(q - middle, 2 * kPi), -half, half);
+double AngleRange::quantity(std::span<const Vec3> p_W) const {
+  return axis_W_ ? std::remainder(angle(p_W) - middle_, 2 * kPi) : angle(p_W);
 }
 
 PerParticle AngleRange::gradient(std::span<const Vec3> p_W) const {

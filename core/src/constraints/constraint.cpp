@@ -44,8 +44,8 @@ double cost(const PerParticle& d_W, std::span<const double> w) {
 // which the linearised constraint holds, until d repeats itself. Its fixed points are Lagrange's condition. Where q is
 // curved so strongly that d would swing about its end, only a share of each change is made; near a minimum a small enough
 // share always converges, since the eigenvalues of the map are real and below 1 there (second-order condition).
-MinimalMotion shortened(const Constraint& constraint, const MinimalMotion& found, std::span<const Vec3> p_W,
-                        std::span<const double> w) {
+MinimalMotion shortened(const Constraint& constraint, double bound, const MinimalMotion& found,
+                        std::span<const Vec3> p_W, std::span<const double> w) {
   const double lightest = *std::max_element(w.begin(), w.end());
   MinimalMotion motion = found, next;
   PerParticle change, before = motion.d_W;
@@ -58,7 +58,7 @@ MinimalMotion shortened(const Constraint& constraint, const MinimalMotion& found
     if (!(leverage > 0)) return found;
     double along = 0;
     for (std::size_t i = 0; i < p_W.size(); ++i) along += g[i].dot(motion.d_W[i]);
-    next.multiplier = (constraint.violation(end) - along) / leverage;
+    next.multiplier = (constraint.quantity(end) - bound - along) / leverage;
     double largest = 0, turned = 0, turn = 0;
     for (std::size_t i = 0; i < p_W.size(); ++i) {
       next.d_W[i] = -next.multiplier * w[i] * g[i];
@@ -75,15 +75,17 @@ MinimalMotion shortened(const Constraint& constraint, const MinimalMotion& found
   // Far from the constraint the repetition may wander off; then the first motion is kept.
   const PerParticle at = displaced(p_W, next.d_W);
   const std::span<const Vec3> end(at.data(), p_W.size());
-  const bool met = std::abs(constraint.violation(end)) <= 4 * rounding(constraint.gradient(end), end);
+  const bool met = std::abs(constraint.quantity(end) - bound) <= 4 * rounding(constraint.gradient(end), end);
   return met && cost(next.d_W, w) <= cost(found.d_W, w) * (1 + 1e-14) ? next : found;
 }
 
 }  // namespace
 
-Constraint::Constraint(std::initializer_list<std::size_t> particles) : count_(particles.size()) {
+Constraint::Constraint(std::initializer_list<std::size_t> particles, double low, double high)
+    : count_(particles.size()), low_(low), high_(high) {
   if (count_ == 0 || count_ > kMostParticles)
     throw std::invalid_argument("a constraint holds 1 to 3 particles: make several of it");
+  if (!(low <= high)) throw std::invalid_argument("a constraint needs a range with low <= high: exchange the two");
   std::copy(particles.begin(), particles.end(), particles_.begin());
   for (std::size_t i = 0; i < count_; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -94,10 +96,18 @@ Constraint::Constraint(std::initializer_list<std::size_t> particles) : count_(pa
   }
 }
 
+double Constraint::violation(std::span<const Vec3> p_W) const {
+  const double q = quantity(p_W);
+  if (q < low_) return q - low_;
+  if (q > high_) return q - high_;
+  return q - q;  // 0, or NaN
+}
+
 MinimalMotion Constraint::minimal_motion(std::span<const Vec3> p_W, std::span<const double> inverse_masses) const {
   MinimalMotion motion;
   double excess = violation(p_W);
   if (excess == 0) return motion;
+  const double bound = quantity(p_W) - excess;
   for (int k = 0; k < kMostIterations && excess != 0; ++k) {
     const PerParticle at = displaced(p_W, motion.d_W);
     const PerParticle g = gradient({at.data(), p_W.size()});
@@ -108,15 +118,16 @@ MinimalMotion Constraint::minimal_motion(std::span<const Vec3> p_W, std::span<co
     for (std::size_t i = 0; i < p_W.size(); ++i) motion.d_W[i] -= lambda * inverse_masses[i] * g[i];
     motion.multiplier += lambda;
     const PerParticle end = displaced(p_W, motion.d_W);
-    excess = violation({end.data(), p_W.size()});
+    excess = quantity({end.data(), p_W.size()}) - bound;
   }
-  return shortened(*this, motion, p_W, inverse_masses);
+  return shortened(*this, bound, motion, p_W, inverse_masses);
 }
 
 MinimalMotion motion_along(const Constraint& constraint, const PerParticle& direction, std::span<const Vec3> p_W,
                            std::span<const double> inverse_masses) {
   MinimalMotion motion;
   double excess = constraint.violation(p_W);
+  const double bound = constraint.quantity(p_W) - excess;
   for (int k = 0; k < kMostIterations && excess != 0; ++k) {
     const PerParticle at = displaced(p_W, motion.d_W);
     const PerParticle g = constraint.gradient({at.data(), p_W.size()});
@@ -124,17 +135,12 @@ MinimalMotion motion_along(const Constraint& constraint, const PerParticle& dire
     if (leverage == 0) return {};
     if (k > 0 && std::abs(excess) <= rounding(g, p_W)) break;
     motion.multiplier += excess / leverage;
-    for (std::size_t i = 0; i < p_W.size(); ++i) motion.d_W[i] = -motion.multiplier * inverse_masses[i] * direction[i];
+    for (std::size_t i = 0; i < p_W.size(); ++i)
+      motion.d_W[i] = -motion.multiplier * inverse_masses[i] * direction[i];
     const PerParticle end = displaced(p_W, motion.d_W);
-    excess = constraint.violation({end.data(), p_W.size()});
+    excess = constraint.quantity({end.data(), p_W.size()}) - bound;
   }
   return motion;
-}
-
-double outside(double value, double low, double high) {
-  if (value < low) return value - low;
-  if (value > high) return value - high;
-  return value - value;  // 0, or NaN
 }
 
 }  // namespace plumbline

@@ -5,13 +5,12 @@
 namespace plumbline {
 
 CoordinateRange::CoordinateRange(std::size_t particle, const Vec3& direction_W, double low, double high)
-    : Constraint({particle}), direction_W_(direction_W.normalized()), low_(low), high_(high) {
+    : Constraint({particle}, low, high), direction_W_(direction_W.normalized()) {
   if (!(direction_W.norm() > 0)) throw std::invalid_argument("a coordinate range needs a direction that is not zero");
-  if (!(low <= high)) throw std::invalid_argument("a coordinate range needs low <= high: exchange the two");
 }
 
-double CoordinateRange::violation(std::span<const Vec3> p_W) const {
-  return outside(direction_W_.dot(p_W[0]), low_, high_);
+double CoordinateRange::quantity(std::span<const Vec3> p_W) const {
+  return direction_W_.dot(p_W[0]);
 }
 
 PerParticle CoordinateRange::gradient(std::span<const Vec3>) const {

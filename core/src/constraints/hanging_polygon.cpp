@@ -52,19 +52,22 @@ HangingPolygon hanging_polygon(const Vec3& first_W, const Vec3& last_W, std::spa
   std::partial_sum(weights.begin(), weights.end(), below.begin() + 1);
   Vec2 pull(weight, -0.5 * weight);
   Potential at = potential(pull, end, lengths, below);
-  for (int k = 0; k < 200; ++k) {
+  for (int k = 0; k < 500; ++k) {
     const Vec2 step = -at.curvature.inverse() * at.slope;
+    // The value must fall; so near the minimum that it no longer resolves the gain, the slope must.
+    const bool near = at.slope.norm() < 1e-6 * length;
     double share = 1;
     Potential next = potential(pull + step, end, lengths, below);
-    // Near the minimum the value no longer resolves the gain; the slope does.
-    while (!(next.value < at.value || next.slope.norm() < at.slope.norm()) && share > 1e-10) {
+    const auto better = [&] {
+      return near ? next.slope.norm() < at.slope.norm() : next.value < at.value + 1e-4 * share * at.slope.dot(step);
+    };
+    while (!better() && share > 1e-12) {
       share *= 0.5;
       next = potential(pull + share * step, end, lengths, below);
     }
-    if (!(next.slope.norm() < at.slope.norm() || next.value < at.value)) break;
+    if (!better()) break;
     pull += share * step;
     at = next;
-    if (step.norm() <= 1e-16 * pull.norm()) break;
   }
 
   HangingPolygon result;

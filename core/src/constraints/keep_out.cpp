@@ -24,10 +24,10 @@ const Obstacle& checked(const Obstacle& obstacle) {
 }  // namespace
 
 ParticleKeepOut::ParticleKeepOut(std::size_t particle, const Obstacle& obstacle)
-    : Constraint({particle}), obstacle_(checked(obstacle)) {}
+    : Constraint({particle}, 0, kFarthest), obstacle_(checked(obstacle)) {}
 
-double ParticleKeepOut::violation(std::span<const Vec3> p_W) const {
-  return outside(gap_to_point(obstacle_, p_W[0]).distance, 0, kFarthest);
+double ParticleKeepOut::quantity(std::span<const Vec3> p_W) const {
+  return gap_to_point(obstacle_, p_W[0]).distance;
 }
 
 PerParticle ParticleKeepOut::gradient(std::span<const Vec3> p_W) const {
@@ -35,10 +35,10 @@ PerParticle ParticleKeepOut::gradient(std::span<const Vec3> p_W) const {
 }
 
 LinkKeepOut::LinkKeepOut(std::size_t a, std::size_t b, const Obstacle& obstacle)
-    : Constraint({a, b}), obstacle_(checked(obstacle)) {}
+    : Constraint({a, b}, 0, kFarthest), obstacle_(checked(obstacle)) {}
 
-double LinkKeepOut::violation(std::span<const Vec3> p_W) const {
-  return outside(gap_to_link(obstacle_, p_W[0], p_W[1]).distance, 0, kFarthest);
+double LinkKeepOut::quantity(std::span<const Vec3> p_W) const {
+  return gap_to_link(obstacle_, p_W[0], p_W[1]).distance;
 }
 
 PerParticle LinkKeepOut::gradient(std::span<const Vec3> p_W) const {

@@ -8,13 +8,13 @@ LinkConstraint::LinkConstraint(std::size_t first, std::size_t second, double len
     : LinkConstraint(first, second, length, length) {}
 
 LinkConstraint::LinkConstraint(std::size_t first, std::size_t second, double shortest, double longest)
-    : Constraint({first, second}), shortest_(shortest), longest_(longest) {
+    : Constraint({first, second}, shortest, longest) {
   if (!(shortest >= 0 && shortest <= longest && longest > 0))
     throw std::invalid_argument("a link needs 0 <= shortest <= longest and longest > 0, in metres");
 }
 
-double LinkConstraint::violation(std::span<const Vec3> p_W) const {
-  return outside((p_W[1] - p_W[0]).norm(), shortest_, longest_);
+double LinkConstraint::quantity(std::span<const Vec3> p_W) const {
+  return (p_W[1] - p_W[0]).norm();
 }
 
 PerParticle LinkConstraint::gradient(std::span<const Vec3> p_W) const {

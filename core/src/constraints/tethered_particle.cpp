@@ -46,6 +46,15 @@ double step_of(const Swing& swing, double length) {
   return step;
 }
 
+// When lambda falls through zero, if it goes on below -rounding. A pendulum let go level with its anchor comes back with a
+// tension that only touches zero, and rounding must not let it go slack there.
+std::optional<double> slackening(const std::array<double, kOrder - 1>& lambda, double duration, double rounding) {
+  auto raised = lambda;
+  raised[0] += rounding;
+  const auto surely = first_crossing(raised, duration);
+  return surely ? first_crossing(lambda, *surely).value_or(*surely) : surely;
+}
+
 }  // namespace
 
 TetheredParticle::TetheredParticle(const Tether& tether, const Vec3& gravity_W, const Vec3& p_W, const Vec3& v_W)
@@ -66,10 +75,14 @@ double TetheredParticle::tautness() const {
 // A tension of zero, as of a pendulum that is let go level with its anchor, is decided by how it goes on: lambda' =
 // 3 g.v/l^2, and if that is zero too lambda'' = 3 g^2/l^2.
 bool TetheredParticle::pulls() const {
-  const double l2 = tether_.length * tether_.length;
-  const double rounding = 1e-12 * (now_.a_W.norm() * tether_.length + now_.v_W.squaredNorm()) / l2;
   const double lambda = tautness();
-  return lambda > rounding || (lambda >= -rounding && now_.a_W.dot(now_.v_W) >= 0);
+  return lambda > rounding() || (lambda >= -rounding() && now_.a_W.dot(now_.v_W) >= 0);
+}
+
+// Of lambda: a thousand roundings of what it is made of.
+double TetheredParticle::rounding() const {
+  const double l = tether_.length;
+  return 2e-13 * (now_.a_W.norm() * l + now_.v_W.squaredNorm()) / (l * l);
 }
 
 double TetheredParticle::tension_per_mass() const { return taut_ ? tautness() * tether_.length : 0; }
@@ -118,7 +131,7 @@ void TetheredParticle::swing_until(double time) {
   const Swing swing = taylor(now_.p_W - tether_.anchor_W, now_.v_W, g, tether_.length);
   const double reach = step_of(swing, tether_.length);
   double duration = std::min(reach, time - time_);
-  const auto slack = first_crossing(swing.lambda, duration);
+  const auto slack = slackening(swing.lambda, duration, rounding());
   if (slack) duration = *slack;
   Vec3 r = Vec3::Zero(), v = Vec3::Zero();
   for (std::size_t k = kOrder + 1; k-- > 0;) r = r * duration + swing.r[k];

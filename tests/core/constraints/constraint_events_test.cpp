@@ -84,7 +84,7 @@ TEST(ConstraintEvents, OfParabolasAndSpheresAreOnTheSphereAndTheFirstOnes) {
     EXPECT_NEAR(r.norm(), radius, rounding) << trial;
     EXPECT_EQ(r.dot(there.v_W) > 0, inside);
   }
-  EXPECT_GT(entered, 200);
+  EXPECT_GT(entered, 100);
   EXPECT_GT(left, 100);
 }
 

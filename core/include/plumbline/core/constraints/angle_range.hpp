@@ -28,13 +28,14 @@ class AngleRange : public Constraint {
   // range. Throws std::invalid_argument, as above, when that is not so, and for an axis of length 0.
   AngleRange(std::size_t first, std::size_t joint, std::size_t third, double low, double high, const Vec3& axis_W);
 
-  // q [rad].
+  // As defined above [rad].
   double angle(std::span<const Vec3> p_W) const;
-  double violation(std::span<const Vec3> p_W) const override;
+  // The angle; in a plane counted from the middle of the range, so that too far one way is not taken for the other.
+  double quantity(std::span<const Vec3> p_W) const override;
   PerParticle gradient(std::span<const Vec3> p_W) const override;
 
  private:
-  double low_, high_;
+  double middle_ = 0;  // [rad]
   std::optional<Vec3> axis_W_;
 };
 

@@ -1,9 +1,9 @@
 // A constraint: something that positions of particles must satisfy, with a violation that can be measured and undone
 // (course slides 32-36).
 //
-// A constraint measures one quantity q of a few particles: a coordinate, a distance, an angle, a height above an
-// obstacle. Its violation C is what q has too much (C > 0) or too little (C < 0); 0 where the constraint is met. Units
-// of q and C: [m], for angles [rad].
+// A constraint measures one quantity q of a few particles, a coordinate, a distance, an angle, a height above an obstacle,
+// and wants low <= q <= high. Its violation C is what q has too much (C > 0) or too little (C < 0); 0 where the constraint
+// is met. Units of q and C: [m], for angles [rad].
 //
 // Minimal motion (slide 36): of all displacements d_i that make C zero the one with the smallest sum m_i |d_i|^2.
 // Lagrange's condition for it, with w_i = 1/m_i the inverse masses and one multiplier lambda, is
@@ -47,7 +47,8 @@ class Constraint {
   // Which particles of the whole: at most kMostParticles, all different.
   std::span<const std::size_t> particles() const { return {particles_.data(), count_}; }
 
-  virtual double violation(std::span<const Vec3> p_W) const = 0;
+  virtual double quantity(std::span<const Vec3> p_W) const = 0;  // q
+  double violation(std::span<const Vec3> p_W) const;             // C
   // dq/dp_i. Of length 1 for distances and heights, 1/length for angles; defined also where the constraint is met.
   virtual PerParticle gradient(std::span<const Vec3> p_W) const = 0;
   // As above. Nothing moves when the constraint is met or when all its particles are fixed. The general form seeks the
@@ -55,15 +56,18 @@ class Constraint {
   virtual MinimalMotion minimal_motion(std::span<const Vec3> p_W, std::span<const double> inverse_masses) const;
 
  protected:
-  // Throws std::invalid_argument for a particle that is named twice, and for none or too many.
-  explicit Constraint(std::initializer_list<std::size_t> particles);
+  // Throws std::invalid_argument for a particle that is named twice, for none or too many, and unless low <= high.
+  Constraint(std::initializer_list<std::size_t> particles, double low, double high);
+  double low() const { return low_; }
+  double high() const { return high_; }
 
  private:
   std::array<std::size_t, kMostParticles> particles_{};
   std::size_t count_ = 0;
+  double low_, high_;
 };
 
-// The motion with C = 0 along other directions than the gradient at its end: d_i = -lambda w_i direction_i. SHAKE moves
+// The motion to the violated end of the range along other directions than the gradient at its end: d_i = -lambda w_i direction_i. SHAKE moves
 // along the gradients of the step's start (verlet_relaxation.hpp). Newton's method for the one unknown lambda.
 MinimalMotion motion_along(const Constraint& constraint, const PerParticle& direction, std::span<const Vec3> p_W,
                            std::span<const double> inverse_masses);
@@ -81,8 +85,5 @@ class ConstraintList {
  private:
   std::vector<std::shared_ptr<const Constraint>> items_;
 };
-
-// Value minus the nearest value of [low, high]: the violation of a range. NaN stays NaN.
-double outside(double value, double low, double high);
 
 }  // namespace plumbline

@@ -11,14 +11,13 @@ class CoordinateRange : public Constraint {
   // Throws std::invalid_argument unless the direction is not zero and low <= high. The direction is made a unit vector.
   CoordinateRange(std::size_t particle, const Vec3& direction_W, double low, double high);
 
-  double violation(std::span<const Vec3> p_W) const override;
+  double quantity(std::span<const Vec3> p_W) const override;
   PerParticle gradient(std::span<const Vec3> p_W) const override;
   // The slide's clamp, x <- low or high, along e.
   MinimalMotion minimal_motion(std::span<const Vec3> p_W, std::span<const double> inverse_masses) const override;
 
  private:
   Vec3 direction_W_;
-  double low_, high_;
 };
 
 }  // namespace plumbline

@@ -12,7 +12,7 @@ class ParticleKeepOut : public Constraint {
  public:
   // Throws std::invalid_argument for an obstacle without size (radius, edges, normal must be > 0).
   ParticleKeepOut(std::size_t particle, const Obstacle& obstacle);
-  double violation(std::span<const Vec3> p_W) const override;
+  double quantity(std::span<const Vec3> p_W) const override;
   PerParticle gradient(std::span<const Vec3> p_W) const override;
 
  private:
@@ -25,7 +25,7 @@ class ParticleKeepOut : public Constraint {
 class LinkKeepOut : public Constraint {
  public:
   LinkKeepOut(std::size_t a, std::size_t b, const Obstacle& obstacle);
-  double violation(std::span<const Vec3> p_W) const override;
+  double quantity(std::span<const Vec3> p_W) const override;
   PerParticle gradient(std::span<const Vec3> p_W) const override;
 
  private:

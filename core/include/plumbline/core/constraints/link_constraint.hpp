@@ -23,16 +23,13 @@ class LinkConstraint : public Constraint {
   // Throws std::invalid_argument unless 0 <= shortest <= longest and longest > 0.
   LinkConstraint(std::size_t first, std::size_t second, double shortest, double longest);
 
-  double shortest() const { return shortest_; }
-  double longest() const { return longest_; }
+  double shortest() const { return low(); }
+  double longest() const { return high(); }
 
-  double violation(std::span<const Vec3> p_W) const override;
+  double quantity(std::span<const Vec3> p_W) const override;
   PerParticle gradient(std::span<const Vec3> p_W) const override;
   // Slide 34 with its signs put right. The multiplier is C/(w1 + w2).
   MinimalMotion minimal_motion(std::span<const Vec3> p_W, std::span<const double> inverse_masses) const override;
-
- private:
-  double shortest_, longest_;
 };
 
 }  // namespace plumbline

@@ -62,6 +62,7 @@ class TetheredParticle {
   void swing_until(double time);
   void go_taut();
   double tautness() const;  // lambda [1/s^2]
+  double rounding() const;  // of lambda [1/s^2]
   bool pulls() const;
 
   Tether tether_;
