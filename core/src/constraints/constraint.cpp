@@ -42,8 +42,8 @@ double cost(const PerParticle& d_W, std::span<const double> w) {
 
 // From a motion that meets the constraint to the smallest one that does: d -> -lambda W g(p + d) with the lambda for
 // which the linearised constraint holds, until d repeats itself. Its fixed points are Lagrange's condition. Where q is
-// curved so strongly that d would swing about its end, only a share of each change is made; near a minimum a small enough
-// share always converges, since the eigenvalues of the map are real and below 1 there (second-order condition).
+// curved so strongly that d would swing about its end, only a share of each change is made; near a minimum a small
+// enough share always converges, since the eigenvalues of the map are real and below 1 there (second-order condition).
 MinimalMotion shortened(const Constraint& constraint, double bound, const MinimalMotion& found,
                         std::span<const Vec3> p_W, std::span<const double> w) {
   const double lightest = *std::max_element(w.begin(), w.end());
@@ -135,8 +135,7 @@ MinimalMotion motion_along(const Constraint& constraint, const PerParticle& dire
     if (leverage == 0) return {};
     if (k > 0 && std::abs(excess) <= rounding(g, p_W)) break;
     motion.multiplier += excess / leverage;
-    for (std::size_t i = 0; i < p_W.size(); ++i)
-      motion.d_W[i] = -motion.multiplier * inverse_masses[i] * direction[i];
+    for (std::size_t i = 0; i < p_W.size(); ++i) motion.d_W[i] = -motion.multiplier * inverse_masses[i] * direction[i];
     const PerParticle end = displaced(p_W, motion.d_W);
     excess = constraint.quantity({end.data(), p_W.size()}) - bound;
   }

@@ -9,9 +9,7 @@ CoordinateRange::CoordinateRange(std::size_t particle, const Vec3& direction_W, 
   if (!(direction_W.norm() > 0)) throw std::invalid_argument("a coordinate range needs a direction that is not zero");
 }
 
-double CoordinateRange::quantity(std::span<const Vec3> p_W) const {
-  return direction_W_.dot(p_W[0]);
-}
+double CoordinateRange::quantity(std::span<const Vec3> p_W) const { return direction_W_.dot(p_W[0]); }
 
 PerParticle CoordinateRange::gradient(std::span<const Vec3>) const {
   return {direction_W_, Vec3::Zero(), Vec3::Zero()};

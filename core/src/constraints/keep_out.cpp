@@ -26,9 +26,7 @@ const Obstacle& checked(const Obstacle& obstacle) {
 ParticleKeepOut::ParticleKeepOut(std::size_t particle, const Obstacle& obstacle)
     : Constraint({particle}, 0, kFarthest), obstacle_(checked(obstacle)) {}
 
-double ParticleKeepOut::quantity(std::span<const Vec3> p_W) const {
-  return gap_to_point(obstacle_, p_W[0]).distance;
-}
+double ParticleKeepOut::quantity(std::span<const Vec3> p_W) const { return gap_to_point(obstacle_, p_W[0]).distance; }
 
 PerParticle ParticleKeepOut::gradient(std::span<const Vec3> p_W) const {
   return {gap_to_point(obstacle_, p_W[0]).normal_W, Vec3::Zero(), Vec3::Zero()};

@@ -13,9 +13,7 @@ LinkConstraint::LinkConstraint(std::size_t first, std::size_t second, double sho
     throw std::invalid_argument("a link needs 0 <= shortest <= longest and longest > 0, in metres");
 }
 
-double LinkConstraint::quantity(std::span<const Vec3> p_W) const {
-  return (p_W[1] - p_W[0]).norm();
-}
+double LinkConstraint::quantity(std::span<const Vec3> p_W) const { return (p_W[1] - p_W[0]).norm(); }
 
 PerParticle LinkConstraint::gradient(std::span<const Vec3> p_W) const {
   const Vec3 v = p_W[1] - p_W[0];

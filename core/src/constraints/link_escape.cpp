@@ -28,8 +28,8 @@ LinkGap gap_after(const Link& link, const Obstacle& o, const LinkMotion& motion)
 }
 
 // The smallest motion with e . (d_b - d_a) = stretch (length kept) and n_a . d_a + n_b . d_b = rise for each given end:
-// repeated linearisation about where the motion ends, whose fixed point is Lagrange's condition of constraint.hpp. Shares
-// of each change as in constraint.cpp.
+// repeated linearisation about where the motion ends, whose fixed point is Lagrange's condition of constraint.hpp.
+// Shares of each change as in constraint.cpp.
 struct EndClearance {
   double share_a, share_b;  // of the gap's gradient
   Vec3 normal_W;

@@ -46,8 +46,8 @@ double step_of(const Swing& swing, double length) {
   return step;
 }
 
-// When lambda falls through zero, if it goes on below -rounding. A pendulum let go level with its anchor comes back with a
-// tension that only touches zero, and rounding must not let it go slack there.
+// When lambda falls through zero, if it goes on below -rounding. A pendulum let go level with its anchor comes back
+// with a tension that only touches zero, and rounding must not let it go slack there.
 std::optional<double> slackening(const std::array<double, kOrder - 1>& lambda, double duration, double rounding) {
   auto raised = lambda;
   raised[0] += rounding;

@@ -96,19 +96,20 @@ Bridge settled(Pull pull, double h) {
 }
 
 TEST(Bridge, HangsAsTheExactPolygonWithTheExactTensions) {
-  const HangingPolygon exact = hanging_polygon(Vec3::Zero(), Vec3(3, 0, 0), std::vector<double>(10, 0.5),
-                                               std::vector<double>(9, 0.2 * kG));
+  const HangingPolygon exact =
+      hanging_polygon(Vec3::Zero(), Vec3(3, 0, 0), std::vector<double>(10, 0.5), std::vector<double>(9, 0.2 * kG));
   const Bridge bridge = settled(Pull::kStart, 0.02);
   for (std::size_t k = 0; k < 10; ++k) {
-    // Slowest swing, w^2 of some g/(1 m), damped by exp(-2 t): e^-40 after 20 s. The residual of 1e-13 leaves N^2 of it.
+    // Slowest swing, w^2 of some g/(1 m), damped by exp(-2 t): e^-40 after 20 s. The residual of 1e-13 leaves N^2 of
+    // it.
     EXPECT_LE((bridge.p_W[k] - exact.p_W[k]).norm(), 1e-11) << k;
     EXPECT_NEAR(bridge.forces[k], exact.tensions[k], 1e-8) << k;  // the same times m/h^2
   }
 }
 
 TEST(Bridge, PulledAsOnTheSlideHangsAsideInSecondOrderOfTheStep) {
-  const HangingPolygon exact = hanging_polygon(Vec3::Zero(), Vec3(3, 0, 0), std::vector<double>(10, 0.5),
-                                               std::vector<double>(9, 0.2 * kG));
+  const HangingPolygon exact =
+      hanging_polygon(Vec3::Zero(), Vec3(3, 0, 0), std::vector<double>(10, 0.5), std::vector<double>(9, 0.2 * kG));
   std::vector<double> errors;
   for (const double h : {0.02, 0.01}) {
     const Bridge bridge = settled(Pull::kMinimal, h);
@@ -167,7 +168,7 @@ TEST(RagDoll, DroppedOnTheFloorKeepsItsBonesAndAngles) {
   VerletRelaxation run(doll, 0.005, options);
   double worst = 0, lowest = 0;
   int sweeps = 0;
-  for (int k = 0; k < 600; ++k) {
+  for (int k = 0; k < 400; ++k) {
     const RelaxationReport report = run.step();
     EXPECT_TRUE(report.within_tolerance) << k << ": " << report.residuals.back();
     worst = std::max(worst, largest_violation(body, run.positions()));
@@ -181,7 +182,7 @@ TEST(RagDoll, DroppedOnTheFloorKeepsItsBonesAndAngles) {
   double highest = 0;
   for (const Vec3& p : run.positions()) highest = std::max(highest, p.z());
   EXPECT_LT(highest, 0.9);
-  RecordProperty("sweeps_per_step", std::to_string(sweeps / 600.0));
+  RecordProperty("sweeps_per_step", std::to_string(sweeps / 400.0));
 }
 
 TEST(RagDoll, TumblingInSpaceKeepsItsMomentaWhileItsAnglesHitTheirLimits) {
@@ -200,14 +201,15 @@ TEST(RagDoll, TumblingInSpaceKeepsItsMomentaWhileItsAnglesHitTheirLimits) {
     run.step();
     const auto [p0, l0] = momenta(run, masses, h);
     double limit_pulls = 0;
-    for (int k = 0; k < 1000; ++k) {
+    for (int k = 0; k < 500; ++k) {
       const RelaxationReport report = run.step();
-      for (std::size_t c = kDollLinks; c < kDollLinks + kDollAngles; ++c) limit_pulls += std::abs(report.multipliers[c]);
+      for (std::size_t c = kDollLinks; c < kDollLinks + kDollAngles; ++c)
+        limit_pulls += std::abs(report.multipliers[c]);
     }
     EXPECT_GT(limit_pulls, 1e-3);  // angles did reach their limits
     const auto [p1, l1] = momenta(run, masses, h);
     // Every motion of every sweep rounds positions of some 5 m, at masses of 73 kg in all, over h.
-    const double rounding = 1000 * 10 * 5 * kEps * 73 / h;
+    const double rounding = 500 * 10 * 5 * kEps * 73 / h;
     EXPECT_LE((p1 - p0).norm(), rounding);
     if (pull == Pull::kStart) {
       EXPECT_LE((l1 - l0).norm(), 5 * rounding) << l0.norm();

@@ -64,8 +64,8 @@ TEST(ConstraintEvents, OfParabolasAndSpheresAreOnTheSphereAndTheFirstOnes) {
     const double radius = random.in(0.3, 1.5);
     const Flight flight{centre + random.vector(2), random.vector(3), random.vector(5)};
     const bool inside = (flight.p_W - centre).norm() < radius;
-    const auto time = inside ? flight_leaves_sphere(flight, centre, radius)
-                             : flight_enters_sphere(flight, centre, radius);
+    const auto time =
+        inside ? flight_leaves_sphere(flight, centre, radius) : flight_enters_sphere(flight, centre, radius);
     (inside ? left : entered) += time.has_value();
     const double end = time.value_or(4);
     // Every look before stays on its own side.

@@ -82,7 +82,8 @@ double measured_threshold(const Assembly& chain, const PenaltySpring& spring, do
 }
 
 void penalty_thresholds() {
-  std::printf("| links | damping ratio | w_max [rad/s] | limit of theory [s] | measured [s] |\n|---|---|---|---|---|\n");
+  std::printf(
+      "| links | damping ratio | w_max [rad/s] | limit of theory [s] | measured [s] |\n|---|---|---|---|---|\n");
   for (const std::size_t links : {1u, 2u, 10u, 40u}) {
     for (const double zeta : {0.0, 0.5}) {
       if (zeta > 0 && links == 2) continue;

@@ -61,8 +61,8 @@ TEST(ConstraintGradient, IsTheSlopeOfTheViolation) {
         d[i] = random.direction();
         slope += gradient[i].dot(d[i]);
       }
-      // Central differences over h and 2 h: the error of the first is a third of what they differ by, to next order, plus
-      // the rounding of C over h. Places where C changes its formula within 2 h are left out.
+      // Central differences over h and 2 h: the error of the first is a third of what they differ by, to next order,
+      // plus the rounding of C over h. Places where C changes its formula within 2 h are left out.
       const double h = 1e-5;
       const auto shifted = [&](double step) {
         std::array<Vec3, 3> q = p;
@@ -142,14 +142,14 @@ TEST(MinimalMotion, OfLinksAndAnglesKeepsCentreOfMassAndDoesNotTurn) {
     // In the plane through the three particles the signed angle is one of particles in a plane.
     const Vec3 axis = (p[0] - p[1]).cross(p[2] - p[1]);
     const AngleRange in_plane(0, 1, 2, -0.4, 0.3, axis);
-    for (const Constraint* constraint : {static_cast<const Constraint*>(&link),
-                                         static_cast<const Constraint*>(&in_space),
-                                         static_cast<const Constraint*>(&in_plane)}) {
+    for (const Constraint* constraint :
+         {static_cast<const Constraint*>(&link), static_cast<const Constraint*>(&in_space),
+          static_cast<const Constraint*>(&in_plane)}) {
       const std::size_t count = constraint->particles().size();
       const std::span<const double> masses(w.data(), count);
       const MinimalMotion motion = constraint->minimal_motion({p.data(), count}, masses);
-      // Masses up to 5, positions and motions up to 3: products of 45, of which each rounding keeps 1e-16. The motion of
-      // an angle is repeated until it changes by 1e-15 of itself.
+      // Masses up to 5, positions and motions up to 3: products of 45, of which each rounding keeps 1e-16. The motion
+      // of an angle is repeated until it changes by 1e-15 of itself.
       EXPECT_LE(shift(motion.d_W, masses).norm(), 1e-14);
       EXPECT_LE(turn({p.data(), count}, motion.d_W, masses).norm(), 5e-14) << trial;
       checked += motion.multiplier != 0;

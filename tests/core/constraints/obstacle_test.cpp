@@ -23,8 +23,8 @@ double reach(const Obstacle& o, const Vec3& n) {
 }
 
 TEST(ObstacleGap, OfAPointIsTheLargestGapOverAllDirections) {
-  // For convex solids the signed distance is the maximum over unit n of n.(p - c) - reach(n), inside and outside, and it is
-  // taken on at the normal: checked from below by random directions and from above at the normal itself.
+  // For convex solids the signed distance is the maximum over unit n of n.(p - c) - reach(n), inside and outside, and
+  // it is taken on at the normal: checked from below by random directions and from above at the normal itself.
   Random random(11);
   for (const Obstacle& o : {turned_box(), ball()}) {
     for (int trial = 0; trial < 300; ++trial) {
@@ -48,9 +48,7 @@ TEST(ObstacleGap, OfALinkInsideIsItsDepth) {
     for (int trial = 0; trial < 600; ++trial) {
       const Vec3 a = o.p_WO + random.vector(1.2), b = o.p_WO + random.vector(1.2);
       const LinkGap gap = gap_to_link(o, a, b);
-      const auto along = [&](const Vec3& n) {
-        return std::min(n.dot(a - o.p_WO), n.dot(b - o.p_WO)) - reach(o, n);
-      };
+      const auto along = [&](const Vec3& n) { return std::min(n.dot(a - o.p_WO), n.dot(b - o.p_WO)) - reach(o, n); };
       // Near the centre of a ball, at r, the direction of the normal is only known to eps/r.
       const double r = ((1 - gap.s) * a + gap.s * b - o.p_WO).norm();
       EXPECT_NEAR(along(gap.normal_W), gap.distance, 20 * kEps * (1 + 0.2 / r));
@@ -66,7 +64,8 @@ TEST(ObstacleGap, OfALinkInsideIsItsDepth) {
 }
 
 TEST(ObstacleGap, OfALinkSaysWhetherItTouches) {
-  // Against the nearest of many points of the link: it can only be farther than the link itself, by at most the spacing.
+  // Against the nearest of many points of the link: it can only be farther than the link itself, by at most the
+  // spacing.
   Random random(13);
   for (const Obstacle& o : {turned_box(), ball(), slope()}) {
     for (int trial = 0; trial < 200; ++trial) {
@@ -146,8 +145,8 @@ TEST(LinkEscape, CombinedIsNeverBeatenByOtherRigidMotionsOutOfABallOrSlope) {
         const Vec3 t = random.vector(size);
         const Vec3 a2 = middle + t + q * (a - middle), b2 = middle + t + q * (b - middle);
         if (gap_to_link(o, a2, b2).distance < 0) continue;
-        const double cost2 = (a2 - link.a_W).squaredNorm() / link.inverse_mass_a +
-                             (b2 - link.b_W).squaredNorm() / link.inverse_mass_b;
+        const double cost2 =
+            (a2 - link.a_W).squaredNorm() / link.inverse_mass_a + (b2 - link.b_W).squaredNorm() / link.inverse_mass_b;
         EXPECT_GE(cost2, least->cost * (1 - 1e-12));
       }
     });

@@ -16,9 +16,7 @@ inline constexpr double kEps = 2.220446049250313e-16;
 class Random {
  public:
   explicit Random(unsigned long long seed) : engine_(seed) {}
-  double in(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1.0p-53;
-  }
+  double in(double low, double high) { return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1.0p-53; }
   Vec3 vector(double size) { return {in(-size, size), in(-size, size), in(-size, size)}; }
   Vec3 direction() {
     for (;;) {

@@ -81,9 +81,9 @@ TEST(PenaltySprings, HaveTheFrequenciesOfAChain) {
 }
 
 TEST(PenaltySprings, ExplodeJustAboveTheStableStepAndNotJustBelow) {
-  // At dt = 2 (1 + epsilon)/w the growing root is -e^(2 sqrt(2 epsilon)): at epsilon = 1e-3 it grows by 9 % a step, 1e4 in
-  // 110 steps. Below, an undamped mode stays within 1/sqrt(1 - (w dt/2)^2) = 22 times its start, and the modes of a chain
-  // of 10 (of which each has at most the shake) add to at most ten times that.
+  // At dt = 2 (1 + epsilon)/w the growing root is -e^(2 sqrt(2 epsilon)): at epsilon = 1e-3 it grows by 9 % a step, 1e4
+  // in 110 steps. Below, an undamped mode stays within 1/sqrt(1 - (w dt/2)^2) = 22 times its start, and the modes of a
+  // chain of 10 (of which each has at most the shake) add to at most ten times that.
   for (const std::size_t links : {1u, 2u, 10u}) {
     for (const double zeta : {0.0, 0.1, 1.0}) {
       const Assembly chain = chain_along_x(links, false);
@@ -113,7 +113,8 @@ TEST(PenaltySprings, HangTheWeightTooLowByWeightOverStiffness) {
   std::vector<BodyState> states = states_of(chain);
   const auto field = penalty_field(chain.constraints, chain.inverse_masses, Vec3(0, 0, -kG), spring);
   SemiImplicit stepper;
-  // The slowest of the chain's modes has w^2 = 4 k/m sin^2(pi/14) and is damped like exp(-c w^2/(2 k) t): e^-39 after 10 s.
+  // The slowest of the chain's modes has w^2 = 4 k/m sin^2(pi/14) and is damped like exp(-c w^2/(2 k) t): e^-39 after
+  // 10 s.
   for (int k = 0; k < 10000; ++k) stepper.step(field, 0, 1e-3, states);
   for (std::size_t k = 0; k < 3; ++k) {
     const double stretch = (states[k + 1].p_WB - states[k].p_WB).norm() - 1;

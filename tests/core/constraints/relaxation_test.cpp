@@ -92,8 +92,8 @@ TEST(Relaxation, ByPlainJacobiSwapsAViolationForEver) {
 }
 
 TEST(Relaxation, ComesToAStableConfigurationWhereTheViolationCannotBeUndone) {
-  // Ten links of 1 m between ends 10.5 m apart. By Jacobi all links then pull alike: lambda = c/(w1 + w2) is the same, so
-  // that the end links, with one end held, are stretched half as much as the others: 8 c + 2 c/2 = 0.5. Gauss-Seidel
+  // Ten links of 1 m between ends 10.5 m apart. By Jacobi all links then pull alike: lambda = c/(w1 + w2) is the same,
+  // so that the end links, with one end held, are stretched half as much as the others: 8 c + 2 c/2 = 0.5. Gauss-Seidel
   // has just met its last link, whatever that did to the others, which share the rest: 9 c = 0.5.
   for (const SweepOrder order : {SweepOrder::kJacobi, SweepOrder::kGaussSeidel}) {
     Assembly chain = shaken_chain(10, true);

@@ -73,7 +73,8 @@ TEST(TetheredParticle, KeepsEnergyAndSpinAsASphericalPendulum) {
 
 // From the bottom with 2 g l < v0^2 < 5 g l it cannot get round: slack at cos(theta) = -(v0^2/(g l) - 2)/3.
 TEST(TetheredParticle, GoesSlackAndTautAgainAtTheExactTimes) {
-  const double length = 1, v0 = 6.5, w0 = std::sqrt(kG), k = 2 * w0 / v0;  // k < 1: fast enough to pass the top, if a rod
+  const double length = 1, v0 = 6.5, w0 = std::sqrt(kG),
+               k = 2 * w0 / v0;  // k < 1: fast enough to pass the top, if a rod
   TetheredParticle particle({Vec3::Zero(), length, 0}, kGravity, Vec3(0, 0, -length), Vec3(v0, 0, 0));
   particle.advance_to(1.2);
   ASSERT_GE(particle.events().size(), 2u);

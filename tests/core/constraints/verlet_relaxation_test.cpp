@@ -71,9 +71,9 @@ TEST(RelaxedPendulum, HasTheExactPeriodInTheOrderOfItsPull) {
 }
 
 TEST(RelaxedPendulum, OfSmallSwingsIsImplicitEulerOrVerletAsDerived) {
-  // z = 1/(1 -+ i w h) for the slide's pull, e^{+-i phi} with sin(phi/2) = w h/2 for SHAKE's. The swing of 1e-4 rad makes
-  // the pendulum linear to (1e-4)^2/16 in frequency; over these 100 crossings the angle of rotation of a step is found to
-  // that, and the amplitude as well.
+  // z = 1/(1 -+ i w h) for the slide's pull, e^{+-i phi} with sin(phi/2) = w h/2 for SHAKE's. The swing of 1e-4 rad
+  // makes the pendulum linear to (1e-4)^2/16 in frequency; over these 100 crossings the angle of rotation of a step is
+  // found to that, and the amplitude as well.
   const double length = 1, w = std::sqrt(kG / length), h = 0.05, a = 1e-4;
   for (const Pull pull : {Pull::kMinimal, Pull::kStart}) {
     const Vec3 start(length * std::sin(a), 0, -length * std::cos(a));
@@ -124,8 +124,8 @@ TEST(RelaxedRod, ThatTurnsFreelyKeepsItsAngularMomentumOrLosesItAsDerived) {
   }
 }
 
-// Bernoulli's chain of 3: w_j^2 = (g/l) x_j with L_3(x_j) = 0. Let go in the shape of each mode it swings with that mode's
-// frequency alone. The shapes: u_i = L_i(x_j) counted from the free end.
+// Bernoulli's chain of 3: w_j^2 = (g/l) x_j with L_3(x_j) = 0. Let go in the shape of each mode it swings with that
+// mode's frequency alone. The shapes: u_i = L_i(x_j) counted from the free end.
 TEST(RelaxedChain, SwingsWithTheFrequenciesOfTheLaguerrePolynomial) {
   const double l = 0.5;
   for (const double zero : {0.41577456, 2.29428036, 6.28994508}) {  // published to eight decimals
@@ -190,8 +190,8 @@ TEST(RelaxedChain, StretchesLessTheMoreSweeps) {
     EXPECT_LT(stretch, before);
     before = stretch;
   }
-  // After the sweeps a load of 10 m g a h^2 is left to a chain whose slowest mode falls by cos^2(pi/20)^256 = 1.8e-3 and
-  // starts from some N^2/2 of a g h^2: 50 * 1e-3 * 1.8e-3.
+  // After the sweeps a load of 10 m g a h^2 is left to a chain whose slowest mode falls by cos^2(pi/20)^256 = 1.8e-3
+  // and starts from some N^2/2 of a g h^2: 50 * 1e-3 * 1.8e-3.
   EXPECT_LT(before, 2e-4);
 }
 
@@ -224,7 +224,8 @@ TEST(RelaxedTriangle, InFreeFlightKeepsItsMomenta) {
       const int steps = static_cast<int>(std::lround(1 / h));
       for (int k = 0; k < steps; ++k) run.step();
       const auto [p1, l1] = momenta();
-      // Each step rounds positions of some 5 m to 5 eps, divided by h, times masses of 6 in all (times an arm of 5 for L).
+      // Each step rounds positions of some 5 m to 5 eps, divided by h, times masses of 6 in all (times an arm of 5 for
+      // L).
       const double rounding = steps * 5 * kEps * 6 / h;
       EXPECT_LE((p1 - p0).norm(), rounding);
       if (pull == Pull::kStart) {

@@ -1,9 +1,9 @@
 // A constraint: something that positions of particles must satisfy, with a violation that can be measured and undone
 // (course slides 32-36).
 //
-// A constraint measures one quantity q of a few particles, a coordinate, a distance, an angle, a height above an obstacle,
-// and wants low <= q <= high. Its violation C is what q has too much (C > 0) or too little (C < 0); 0 where the constraint
-// is met. Units of q and C: [m], for angles [rad].
+// A constraint measures one quantity q of a few particles, a coordinate, a distance, an angle, a height above an
+// obstacle, and wants low <= q <= high. Its violation C is what q has too much (C > 0) or too little (C < 0); 0 where
+// the constraint is met. Units of q and C: [m], for angles [rad].
 //
 // Minimal motion (slide 36): of all displacements d_i that make C zero the one with the smallest sum m_i |d_i|^2.
 // Lagrange's condition for it, with w_i = 1/m_i the inverse masses and one multiplier lambda, is
@@ -67,8 +67,9 @@ class Constraint {
   double low_, high_;
 };
 
-// The motion to the violated end of the range along other directions than the gradient at its end: d_i = -lambda w_i direction_i. SHAKE moves
-// along the gradients of the step's start (verlet_relaxation.hpp). Newton's method for the one unknown lambda.
+// The motion to the violated end of the range along other directions than the gradient at its end: d_i = -lambda w_i
+// direction_i. SHAKE moves along the gradients of the step's start (verlet_relaxation.hpp). Newton's method for the one
+// unknown lambda.
 MinimalMotion motion_along(const Constraint& constraint, const PerParticle& direction, std::span<const Vec3> p_W,
                            std::span<const double> inverse_masses);
 

@@ -2,20 +2,20 @@
 // motion, and repeat, since undoing one may bring up another.
 //
 // How fast it converges. For a straight chain of N links of equal particles let c_k be what link k is too long. Undoing
-// link k by its multiplier c_k/(w_k + w_k+1) makes its neighbours longer by half of c_k, so that relaxation is Gauss-Seidel
-// (or Jacobi) on A lambda = c, A = G W G^T, tridiagonal: -w beside the diagonal, on it 2 w, or w for a link with a fixed
-// end. D^-1 A, D its diagonal, is a random walk along the links, reflected at fixed ends and lost at free ones: Jacobi's
-// sweep has the eigenvectors cos(k theta) with eigenvalues cos(theta), Gauss-Seidel's has their squares (Young, Iterative
-// Solution of Large Linear Systems, 1971, ch. 5):
+// link k by its multiplier c_k/(w_k + w_k+1) makes its neighbours longer by half of c_k, so that relaxation is
+// Gauss-Seidel (or Jacobi) on A lambda = c, A = G W G^T, tridiagonal: -w beside the diagonal, on it 2 w, or w for a
+// link with a fixed end. D^-1 A, D its diagonal, is a random walk along the links, reflected at fixed ends and lost at
+// free ones: Jacobi's sweep has the eigenvectors cos(k theta) with eigenvalues cos(theta), Gauss-Seidel's has their
+// squares (Young, Iterative Solution of Large Linear Systems, 1971, ch. 5):
 //
 //   both ends fixed   theta = pi j/(N - 1):        residual falls by cos^2(pi/(N - 1)) a sweep
 //   one end fixed     theta = pi (2j - 1)/(2N):    by cos^2(pi/(2N))
 //
 // about 1 - (pi/N)^2 and 1 - (pi/2N)^2: the number of sweeps for a digit grows with the square of the chain's length.
-// With both ends fixed j = 0 stays for ever: all links pull alike, since only the distance of the ends can help them (no
-// guarantees, says the slide). The largest j makes plain Jacobi swap signs for ever (cos pi = -1); with factor 1/2 its
-// slowest mode falls by cos^2(pi/(2N - 2)).
-// Over-relaxation by omega = 2/(1 + sin theta), theta of j = 1, makes Gauss-Seidel fall by omega - 1 ~ 1 - 2 theta.
+// With both ends fixed j = 0 stays for ever: all links pull alike, since only the distance of the ends can help them
+// (no guarantees, says the slide). The largest j makes plain Jacobi swap signs for ever (cos pi = -1); with factor 1/2
+// its slowest mode falls by cos^2(pi/(2N - 2)). Over-relaxation by omega = 2/(1 + sin theta), theta of j = 1, makes
+// Gauss-Seidel fall by omega - 1 ~ 1 - 2 theta.
 #pragma once
 
 #include "plumbline/core/constraints/constraint.hpp"
@@ -28,7 +28,7 @@ enum class SweepOrder {
 };
 
 struct RelaxationOptions {
-  int sweeps = 10;       // at most
+  int sweeps = 10;  // at most
   // Stop once no violation exceeds it [m or rad]. Below the rounding of positions, some 1e-15 of their size, no sweep
   // gets, and each goes on to add its roundings to the multipliers.
   double tolerance = 0;
