@@ -1,5 +1,6 @@
 #include "plumbline/core/constraints/hanging_polygon.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -47,6 +48,12 @@ HangingPolygon hanging_polygon(const Vec3& first_W, const Vec3& last_W, std::spa
   if (!(weight > 0)) throw std::invalid_argument("a hanging polygon needs some weight");
   if (!(end.x() > 0)) throw std::invalid_argument("a hanging polygon needs ends that are not above each other");
   if (!(length > end.norm())) throw std::invalid_argument("a hanging polygon needs links longer than the way between");
+
+  const double longest = *std::max_element(lengths.begin(), lengths.end());
+  if (!(longest <= length - longest + end.norm()))
+    throw std::invalid_argument(
+        "a hanging polygon cannot close: its longest link must be no longer than the others and "
+        "the way between together");
 
   std::vector<double> below(lengths.size(), 0);  // weight of the joints before each link
   std::partial_sum(weights.begin(), weights.end(), below.begin() + 1);

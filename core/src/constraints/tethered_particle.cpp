@@ -64,7 +64,9 @@ TetheredParticle::TetheredParticle(const Tether& tether, const Vec3& gravity_W, 
     throw std::invalid_argument("a string's restitution must lie in 0..1");
   const double beyond = (p_W - tether.anchor_W).norm() / tether.length - 1;
   if (!(beyond <= 1e-12)) throw std::invalid_argument("a particle must start within its string's length");
-  if (beyond >= -1e-12) go_taut();
+  if (beyond < -1e-12) return;
+  go_taut();
+  if (v_W.dot(p_W - tether.anchor_W) <= 0) events_.clear();  // it was taut, it did not become so
 }
 
 double TetheredParticle::tautness() const {

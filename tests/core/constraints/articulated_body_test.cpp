@@ -26,6 +26,11 @@ TEST(HangingPolygon, IsInBalanceAtEveryJointAndEndsWhereItShould) {
     const double total = std::accumulate(lengths.begin(), lengths.end(), 0.0);
     const double stretch = random.in(1.02, 2) * (last - first).norm() / total;
     for (double& l : lengths) l *= stretch;
+    const double longest = *std::max_element(lengths.begin(), lengths.end());
+    if (2 * longest > total * stretch + (last - first).norm()) {  // cannot close
+      EXPECT_THROW(hanging_polygon(first, last, lengths, weights), std::invalid_argument);
+      continue;
+    }
     const HangingPolygon polygon = hanging_polygon(first, last, lengths, weights);
     const double weight = std::accumulate(weights.begin(), weights.end(), 0.0);
     const double largest = *std::max_element(polygon.tensions.begin(), polygon.tensions.end());

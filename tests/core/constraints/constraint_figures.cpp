@@ -7,6 +7,7 @@
 #include "plumbline/core/constraints/chain.hpp"
 #include "plumbline/core/constraints/penalty_springs.hpp"
 #include "plumbline/core/constraints/tethered_particle.hpp"
+#include "plumbline/core/constraints/verlet_relaxation.hpp"
 
 namespace {
 
