@@ -1,5 +1,5 @@
 // The fast path gives what the readable one gives.
-#include "plumbline/core/kinetics/free_flight.hpp"
+#include "plumbline/core/kinetics/free_bodies.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ Scenario swarm(std::size_t count, double spin) {
 void expect_the_simulators_result(const Scenario& scenario, double dt, std::size_t steps) {
   const Scheme scheme{Integrator::kSemiImplicitEuler};
   Simulator readable(scenario, scheme);
-  FreeFlight fast(scenario.bodies, scenario.gravity);
+  FreeBodies fast(scenario.bodies, scenario.gravity);
   for (std::size_t k = 0; k < steps; ++k) readable.step(dt);
   fast.step(dt, steps);
   std::vector<BodyState> states(fast.size());
@@ -54,14 +54,14 @@ void expect_the_simulators_result(const Scenario& scenario, double dt, std::size
   }
 }
 
-TEST(FreeFlight, GivesTheSimulatorsResult) { expect_the_simulators_result(swarm(300, 2), 1.0 / 240, 240); }
+TEST(FreeBodies, GivesTheSimulatorsResult) { expect_the_simulators_result(swarm(300, 2), 1.0 / 240, 240); }
 
 // Half angles of up to 1.7 rad a step, far beyond the series.
-TEST(FreeFlight, TurnsByLargeAnglesToo) { expect_the_simulators_result(swarm(19, 20), 0.1, 1); }
+TEST(FreeBodies, TurnsByLargeAnglesToo) { expect_the_simulators_result(swarm(19, 20), 0.1, 1); }
 
-TEST(FreeFlight, ManyStepsAtOnceAreTheSameBitsAsOneByOne) {
+TEST(FreeBodies, ManyStepsAtOnceAreTheSameBitsAsOneByOne) {
   const Scenario s = swarm(777, 3);
-  FreeFlight one_by_one(s.bodies, s.gravity), at_once(s.bodies, s.gravity);
+  FreeBodies one_by_one(s.bodies, s.gravity), at_once(s.bodies, s.gravity);
   for (int k = 0; k < 50; ++k) one_by_one.step(0.01);
   at_once.step(0.01, 50);
   std::vector<BodyState> a(s.bodies.size()), b(s.bodies.size());
@@ -73,25 +73,25 @@ TEST(FreeFlight, ManyStepsAtOnceAreTheSameBitsAsOneByOne) {
   }
 }
 
-TEST(FreeFlight, KeepsNanWithItsBody) {
+TEST(FreeBodies, KeepsNanWithItsBody) {
   Scenario s = swarm(9, 20);
   s.bodies[4].initial.w_WB.x() = std::nan("");
-  FreeFlight flight(s.bodies, s.gravity);
+  FreeBodies flight(s.bodies, s.gravity);
   flight.step(0.1, 3);
   std::vector<BodyState> states(9);
   flight.read(states);
   for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(is_finite(states[i]), i != 4);
 }
 
-TEST(FreeFlight, RefusesWhatCannotFly) {
+TEST(FreeBodies, RefusesWhatCannotFly) {
   Scenario s = swarm(2, 1);
-  FreeFlight flight(s.bodies, s.gravity);
+  FreeBodies flight(s.bodies, s.gravity);
   std::vector<BodyState> too_few(1);
   EXPECT_THROW(flight.read(too_few), std::invalid_argument);
   EXPECT_THROW(flight.step(0), std::invalid_argument);
   s.bodies[1].inertia.y() = 0;
-  EXPECT_THROW(FreeFlight(s.bodies, s.gravity), std::invalid_argument);
-  EXPECT_EQ(FreeFlight({}, Vec3::Zero()).size(), 0u);
+  EXPECT_THROW(FreeBodies(s.bodies, s.gravity), std::invalid_argument);
+  EXPECT_EQ(FreeBodies({}, Vec3::Zero()).size(), 0u);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "plumbline/core/kinetics/free_flight.hpp"
+#include "plumbline/core/kinetics/free_bodies.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -102,7 +102,7 @@ void turn_far(const Tile& t, double h) {
 
 }  // namespace
 
-FreeFlight::FreeFlight(std::span<const Body> bodies, const Vec3& gravity_W)
+FreeBodies::FreeBodies(std::span<const Body> bodies, const Vec3& gravity_W)
     : gravity_W_(gravity_W), size_(bodies.size()), stride_((bodies.size() + 7) / 8 * 8), values_(stride_ * kRows) {
   const auto row = rows();
   for (std::size_t i = 0; i < size_; ++i) {
@@ -134,13 +134,13 @@ FreeFlight::FreeFlight(std::span<const Body> bodies, const Vec3& gravity_W)
   }
 }
 
-std::array<double*, FreeFlight::kRows> FreeFlight::rows() {
+std::array<double*, FreeBodies::kRows> FreeBodies::rows() {
   std::array<double*, kRows> row;
   for (std::size_t k = 0; k < kRows; ++k) row[k] = values_.data() + k * stride_;
   return row;
 }
 
-void FreeFlight::step(double dt, std::size_t steps) {
+void FreeBodies::step(double dt, std::size_t steps) {
   if (!(dt > 0)) throw std::invalid_argument("a step of " + std::to_string(dt) + " s: it must be > 0");
   const auto row = rows();
   for (std::size_t first = 0; first < size_; first += kTile) {
@@ -173,7 +173,7 @@ void FreeFlight::step(double dt, std::size_t steps) {
   }
 }
 
-void FreeFlight::read(std::span<BodyState> states) const {
+void FreeBodies::read(std::span<BodyState> states) const {
   if (states.size() != size_) {
     throw std::invalid_argument("room for " + std::to_string(states.size()) + " states, but there are " +
                                 std::to_string(size_) + " bodies");

@@ -19,10 +19,10 @@
 
 namespace plumbline {
 
-class FreeFlight {
+class FreeBodies {
  public:
   // Throws std::invalid_argument for a body that is fixed or lacks a mass or a positive moment of inertia.
-  FreeFlight(std::span<const Body> bodies, const Vec3& gravity_W);
+  FreeBodies(std::span<const Body> bodies, const Vec3& gravity_W);
 
   std::size_t size() const { return size_; }
   // Advances all bodies by `steps` steps of dt > 0 [s]. Several steps at once are faster than as many calls: bodies do

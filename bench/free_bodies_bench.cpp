@@ -1,6 +1,6 @@
 // What does one step of a free rigid body cost? Nanoseconds per body and step, at 1e3 to 1e6 bodies.
 //
-//   FreeFlight/n     one call a step; FreeFlight100/n: a hundred steps a call
+//   FreeBodies/n     one call a step; FreeBodies100/n: a hundred steps a call
 //   Simulator/n      the readable form of the same scheme, and the end state that both must share
 //
 // Beside each figure: `energy`, the relative change of the kinetic energy of rotation over the run.
@@ -9,7 +9,7 @@
 #include <random>
 
 #include "plumbline/core/invariant.hpp"
-#include "plumbline/core/kinetics/free_flight.hpp"
+#include "plumbline/core/kinetics/free_bodies.hpp"
 #include "plumbline/core/kinetics/simulator.hpp"
 
 namespace plumbline {
@@ -50,15 +50,15 @@ void report(benchmark::State& state, const Scenario& scenario, const std::vector
 
 void fly(benchmark::State& state, std::size_t steps_a_call) {
   const Scenario scenario = swarm(static_cast<std::size_t>(state.range(0)));
-  FreeFlight flight(scenario.bodies, scenario.gravity);
+  FreeBodies flight(scenario.bodies, scenario.gravity);
   for (auto _ : state) flight.step(kStep, steps_a_call);
   std::vector<BodyState> end(flight.size());
   flight.read(end);
   report(state, scenario, end, steps_a_call);
 }
 
-void FreeFlightOneStep(benchmark::State& state) { fly(state, 1); }
-void FreeFlight100Steps(benchmark::State& state) { fly(state, 100); }
+void FreeBodiesOneStep(benchmark::State& state) { fly(state, 1); }
+void FreeBodies100Steps(benchmark::State& state) { fly(state, 100); }
 
 void ReadableSimulator(benchmark::State& state) {
   const Scenario scenario = swarm(static_cast<std::size_t>(state.range(0)));
@@ -67,8 +67,8 @@ void ReadableSimulator(benchmark::State& state) {
   report(state, scenario, {simulator.states().begin(), simulator.states().end()}, 1);
 }
 
-BENCHMARK(FreeFlightOneStep)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(FreeFlight100Steps)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(FreeBodiesOneStep)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
+BENCHMARK(FreeBodies100Steps)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(ReadableSimulator)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
