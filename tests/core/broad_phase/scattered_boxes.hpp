@@ -78,6 +78,7 @@ inline std::vector<Aabb> scattered_boxes(Scatter kind, std::size_t n, Dice& dice
         break;
       case Scatter::kOnePoint:
         at.setZero();
+        if (step > 1) size.setZero();  // in every other scene
         break;
       case Scatter::kLine:
         at = {0, 0.7 * k, 0};
