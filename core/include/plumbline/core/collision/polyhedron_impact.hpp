@@ -17,7 +17,9 @@
 // Promise: no touch is stepped over. The time is that of a gap <= kImpactTolerance times the size of the pair, so its
 // error is (1e-13 size + a few roundings of the coordinates) / u, where u is the speed at which they approach along
 // the normal then: 1e-10 s for a metre-sized pair that meets at 1 cm/s or more. Grazing impacts (u -> 0) are as badly
-// conditioned as their problem: a touch whose gap dips by less than that tolerance may be found or not.
+// conditioned as their problem: a touch whose gap dips by less than that tolerance may be found or not. Nor
+// is anything found after 10,000 steps, which only a gap needs that stays next to the tolerance while the bodies
+// tumble.
 #pragma once
 
 #include <optional>
