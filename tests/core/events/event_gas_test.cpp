@@ -114,8 +114,7 @@ TEST(EventGas, MatchesPublishedPressureCollisionRateAndDiffusion) {
   EXPECT_GE(least, -1e-12);
 }
 
-// Between walls there is no conserved momentum, and the pressure can be read off the walls: p V = n kT Z, with p the
-// momentum that the six walls take for their area and time. Energy with gravity is kept as well.
+// Between walls and under gravity there is no conserved momentum, but the sum of kinetic and potential energy.
 TEST(EventGas, BetweenWallsKeepsItsEnergyUnderGravity) {
   const HardSphereState state = hard_sphere_crystal(4, 0.3, 5);
   EventScene scene = hard_sphere_scene(state);

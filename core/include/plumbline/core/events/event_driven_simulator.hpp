@@ -35,7 +35,7 @@
 //   series to sum, and the rule is a model, the TC model of Luding and McNamara, Granular Matter 1, 113 (1998): balls
 //   that meet again within collapse_time lose no energy while that lasts. Impacts of one cascade (cascade_time) and the
 //   first of a pair are not touched. A ball on a ball so keeps hopping, about 1e-10 m high, and each such contact costs
-//   some 1e5 impacts a second: a pile is not what this simulator is for, and that is the price of zero tolerance.
+//   some 5e5 impacts a second: a pile is not what this simulator is for, and that is the price of zero tolerance.
 #pragma once
 
 #include <cstdint>
@@ -52,10 +52,10 @@ namespace plumbline {
 
 // One impact, as it stands in the log.
 struct Impact {
-  double time = 0;                // [s]
-  std::size_t ball = 0;           // of two balls the one with the smaller index
-  std::size_t partner = 0;        // the other ball, or the wall
-  bool with_wall = false;         //
+  double time = 0;          // [s]
+  std::size_t ball = 0;     // of two balls the one with the smaller index
+  std::size_t partner = 0;  // the other ball, or the wall
+  bool with_wall = false;
   bool comes_to_rest = false;     // on that wall; the impulse is then that of all bounces of the train together
   Vec3 impulse_W = Vec3::Zero();  // on `ball`; the partner gets its opposite [N s]
 };
@@ -131,10 +131,12 @@ class EventDrivenSimulator {
     double reach;  // sum of the radii
   };
 
-  // event_driven_simulator.cpp: building the world, and what happens at an event
+  // event_driven_setup.cpp
   void check_scene() const;
   void check_overlaps() const;
   void build_cells();
+
+  // event_driven_simulator.cpp: what happens at an event
   void count_at_once();
   std::optional<Impact> collide(int i, int j);
   Impact hit_wall(int i, int wall);
