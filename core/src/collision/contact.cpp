@@ -1,22 +1,19 @@
 #include "plumbline/core/collision/contact.hpp"
 
 #include <stdexcept>
+#include <type_traits>
 
+#include "plumbline/core/collision/contact_manifold.hpp"
 #include "plumbline/core/collision/time_of_impact.hpp"
 
 namespace plumbline {
 namespace {
 
+// In the order of Pair: spheres, boxes, half-spaces.
+bool comes_after(const Body& a, const Body& b) { return a.shape.index() > b.shape.index(); }
+static_assert(std::is_same_v<Shape, std::variant<Sphere, Box, HalfSpace>>);
+
 bool is_half_space(const Body& body) { return std::holds_alternative<HalfSpace>(body.shape); }
-
-Pair ordered(std::span<const Body> bodies, std::size_t i, std::size_t j) {
-  return is_half_space(bodies[i]) ? Pair{j, i} : Pair{i, j};
-}
-
-bool computable(const Body& a, const Body& b) {
-  if (is_half_space(b)) return !is_half_space(a);
-  return std::holds_alternative<Sphere>(a.shape) && std::holds_alternative<Sphere>(b.shape);
-}
 
 std::string describe(const Body& body) { return std::string(shape_name(body.shape)) + " '" + body.name + "'"; }
 
@@ -41,6 +38,26 @@ Contact sphere_half_space_contact(const BodyState& sphere, double radius, const 
   return contact;
 }
 
+Contact sphere_box_contact(const BodyState& sphere, double radius, const BodyState& box, const Vec3& size) {
+  const Mat3 axes = box.q_WB.toRotationMatrix();
+  const Vec3 half = 0.5 * size, centre = axes.transpose() * (sphere.p_WB - box.p_WB);
+  const Vec3 nearest = centre.cwiseMax(-half).cwiseMin(half);
+  Vec3 normal = centre - nearest;
+  double distance = normal.norm();  // of the centre from the surface
+  if (distance != 0) {
+    normal /= distance;
+  } else {
+    int axis = 0;
+    distance = -(half - centre.cwiseAbs()).minCoeff(&axis);
+    normal = Vec3::Unit(axis) * (centre(axis) < 0 ? -1 : 1);
+  }
+  Contact contact;
+  contact.normal_W = axes * normal;
+  contact.gap = distance - radius;
+  contact.point_W = sphere.p_WB - (radius + 0.5 * contact.gap) * contact.normal_W;
+  return contact;
+}
+
 std::array<Contact, 8> box_half_space_contacts(const BodyState& box, const Vec3& size, const BodyState& half_space,
                                                const Vec3& normal_W) {
   std::array<Contact, 8> contacts;
@@ -58,13 +75,11 @@ std::vector<Pair> contact_pairs(std::span<const Body> bodies) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
       if (bodies[i].fixed && bodies[j].fixed) continue;
-      const Pair pair = ordered(bodies, i, j);
-      if (!computable(bodies[pair.a], bodies[pair.b])) {
-        throw std::invalid_argument("the in-house core cannot compute the contact of " + describe(bodies[i]) +
-                                    " with " + describe(bodies[j]) +
-                                    ": it knows spheres with spheres, and spheres and boxes with half-spaces");
+      if (is_half_space(bodies[i]) && is_half_space(bodies[j])) {
+        throw std::invalid_argument("the contact of " + describe(bodies[i]) + " with " + describe(bodies[j]) +
+                                    " cannot be computed: half-spaces never move; make both fixed");
       }
-      pairs.push_back(pair);
+      pairs.push_back(comes_after(bodies[i], bodies[j]) ? Pair{j, i} : Pair{i, j});
     }
   }
   return pairs;
@@ -81,6 +96,13 @@ void append_contacts(std::span<const Body> bodies, std::span<const BodyState> st
       contacts.insert(contacts.end(), corners.begin(), corners.end());
     } else {
       contacts.push_back(sphere_half_space_contact(a, std::get<Sphere>(shape_a).radius, b, half->normal));
+    }
+  } else if (const auto* box_b = std::get_if<Box>(&shape_b)) {
+    if (const auto* box_a = std::get_if<Box>(&shape_a)) {
+      const auto corners = box_box_contacts(a, box_a->size, b, box_b->size);
+      contacts.insert(contacts.end(), corners.begin(), corners.end());
+    } else {
+      contacts.push_back(sphere_box_contact(a, std::get<Sphere>(shape_a).radius, b, box_b->size));
     }
   } else {
     contacts.push_back(sphere_sphere_contact(a, std::get<Sphere>(shape_a).radius, b, std::get<Sphere>(shape_b).radius));

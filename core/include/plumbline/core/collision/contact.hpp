@@ -24,21 +24,27 @@ Contact sphere_sphere_contact(const BodyState& a, double radius_a, const BodySta
 Contact sphere_half_space_contact(const BodyState& sphere, double radius, const BodyState& half_space,
                                   const Vec3& normal_W);
 
+// The point of a box (body b) of that size [m] (full edge lengths) nearest to a sphere (body a), halfway between the
+// two surfaces. A centre inside the box leaves it through the nearest face.
+Contact sphere_box_contact(const BodyState& sphere, double radius, const BodyState& box, const Vec3& size);
+
 // All eight corners of a box (body a) of that size [m] above a half-space (body b). A corner is a contact when its
 // gap is within the tolerance of whoever asks: a box that lies has four of them.
 std::array<Contact, 8> box_half_space_contacts(const BodyState& box, const Vec3& size, const BodyState& half_space,
                                                const Vec3& normal_W);
 
-// Two bodies that may touch, in the order in which their contacts name them: a sphere or box before a half-space.
+// Two bodies that may touch, in the order in which their contacts name them: a sphere before a box, and both before a
+// half-space.
 struct Pair {
   std::size_t a, b;
 };
 
-// All pairs of bodies of which at least one moves. Throws std::invalid_argument, naming the bodies, for a pair whose
-// contact cannot be computed here: a box with a sphere or with a box.
+// All pairs of bodies of which at least one moves. Throws std::invalid_argument, naming the bodies, for two half-spaces
+// of which one is not fixed: they have no contact that could be computed.
 std::vector<Pair> contact_pairs(std::span<const Body> bodies);
 
-// Appends the contacts of that pair, touching or not; bodies[i] is in states[i].
+// Appends the contacts of that pair, touching or not (two boxes far apart may have none: contact_manifold.hpp);
+// bodies[i] is in states[i].
 void append_contacts(std::span<const Body> bodies, std::span<const BodyState> states, Pair pair,
                      std::vector<Contact>& contacts);
 
