@@ -27,7 +27,7 @@ double rebound_speed(double approach, double resting_speed, double restitution) 
 
 }  // namespace
 
-FeatureSet simulator_features() { return FeatureSet::all().without({Feature::kSphereBox, Feature::kBoxBox}); }
+FeatureSet simulator_features() { return FeatureSet::all(); }
 
 Simulator::Simulator(const Scenario& scenario, const Scheme& scheme, const SimulatorOptions& options)
     : scheme_(scheme),
@@ -203,6 +203,11 @@ std::optional<double> Simulator::pair_impact(Pair pair, const Accelerations& hel
   append_contacts(bodies_, states_, pair, contacts);
   const auto left_alone = [&](const Contact& c) { return c.gap <= tolerance(pair) && rests(c); };
 
+  if (std::holds_alternative<Box>(shape_b)) {
+    if (!within_reach(pair, held, horizon) || rests_on(pair, contacts)) return std::nullopt;
+    const std::optional<Touch> touch = shapes_meet(shape_a, a, shape_b, b, horizon);
+    return touch ? std::optional(touch->time) : std::nullopt;
+  }
   if (const auto* sphere_b = std::get_if<Sphere>(&shape_b)) {
     if (left_alone(contacts.front())) return std::nullopt;
     return sphere_meets_sphere(a, std::get<Sphere>(shape_a).radius, b, sphere_b->radius, horizon);

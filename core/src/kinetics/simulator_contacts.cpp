@@ -26,9 +26,23 @@ double Simulator::tolerance(Pair pair) const {
   return options_.contact_tolerance * size + 8 * kEpsilon * reach;
 }
 
+// Between the smallest spheres around the two bodies [m]; a half-space is everywhere near.
+double Simulator::clearance(Pair pair) const {
+  const Shape &a = bodies_[pair.a].shape, &b = bodies_[pair.b].shape;
+  if (std::holds_alternative<HalfSpace>(b)) return 0;
+  return (states_[pair.a].p_WB - states_[pair.b].p_WB).norm() - 0.5 * (size_of(a) + size_of(b));
+}
+
+bool Simulator::within_reach(Pair pair, const Accelerations& held, double horizon) const {
+  const double speed = (states_[pair.a].v_WB - states_[pair.b].v_WB).norm();
+  const double gain = (held[pair.a].linear - held[pair.b].linear).norm() * horizon;
+  return !(clearance(pair) > (speed + 0.5 * gain) * horizon + tolerance(pair));
+}
+
 std::vector<Contact> Simulator::touching() const {
   std::vector<Contact> contacts, all;
   for (const Pair pair : pairs_) {
+    if (clearance(pair) > tolerance(pair)) continue;
     all.clear();
     append_contacts(bodies_, states_, pair, all);
     for (const Contact& c : all) {
@@ -55,6 +69,17 @@ double Simulator::resting_speed(const Contact& c) const {
     return free_[i].linear + free_[i].angular.cross(c.point_W - states_[i].p_WB);
   };
   return std::max(2 * std::abs(c.normal_W.dot(of(c.body_a) - of(c.body_b))) * dt_, rounding_speed(c));
+}
+
+// Some point carries and none is pressed.
+bool Simulator::rests_on(Pair pair, std::span<const Contact> contacts) const {
+  bool carries = false;
+  for (const Contact& c : contacts) {
+    if (!(c.gap <= tolerance(pair))) continue;
+    if (!(approach_speed(c, states_) <= rounding_speed(c))) return false;
+    carries = carries || rests(c);
+  }
+  return carries;
 }
 
 bool Simulator::rests(const Contact& c) const { return std::abs(approach_speed(c, states_)) <= rounding_speed(c); }

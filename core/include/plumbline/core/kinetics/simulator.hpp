@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "plumbline/core/collision/contact.hpp"
-#include "plumbline/core/collision/time_of_impact.hpp"
+#include "plumbline/core/collision/shape_impact.hpp"
 #include "plumbline/core/feature.hpp"
 #include "plumbline/core/kinetics/scheme.hpp"
 #include "plumbline/core/response/impulse.hpp"
@@ -42,7 +42,9 @@ FeatureSet simulator_features();
 // u <= 2 |a_n| dt with a_n the relative acceleration along the normal without contacts, is at rest: its e is 0. So a
 // box that lies stays where it is, and a bouncing ball comes to rest once its bounces take less than a few steps.
 // The factor 2 leaves room for a contact that was noticed one step late. The rule holds for every ImpactRule.
-// Where bodies rest, the impulse of the step acts like a force that is held over it.
+// Where bodies rest, the impulse of the step acts like a force that is held over it. Two bodies of which one is a box
+// may rest on each other in some points while others are still on their way, a box that rocks upon a box: these others
+// are noticed at the start of the next step.
 //
 // Overlap, which ImpactRule::kStepStart produces by its nature, is never pushed out: engines differ in how they
 // do that, and it belongs to them.
@@ -67,11 +69,14 @@ class Simulator {
   Accelerations free_accelerations() const;
   std::vector<Inertness> inertness() const;
   double tolerance(Pair pair) const;
+  double clearance(Pair pair) const;
+  bool within_reach(Pair pair, const Accelerations& held, double horizon) const;
   std::vector<Contact> touching() const;
 
   double rounding_speed(const Contact& contact) const;
   double resting_speed(const Contact& contact) const;
   bool rests(const Contact& contact) const;
+  bool rests_on(Pair pair, std::span<const Contact> contacts) const;
 
   void step_exact_time(double dt);
   void step_from_start(double dt);
