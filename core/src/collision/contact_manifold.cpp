@@ -112,7 +112,7 @@ std::vector<Vec3> clipped(const std::vector<Vec3>& polygon, const Vec3& inward, 
 }
 
 // The face of `solid` that looks most against n, of those that meet in its lowest corner along n.
-const Face& facing(const Solid& solid, const Vec3& n) {
+std::size_t facing(const Solid& solid, const Vec3& n) {
   const auto lower = [&](const Vec3& x, const Vec3& y) { return n.dot(x) < n.dot(y); };
   const auto corner = static_cast<std::size_t>(std::min_element(solid.corners.begin(), solid.corners.end(), lower) -
                                                solid.corners.begin());
@@ -122,24 +122,69 @@ const Face& facing(const Solid& solid, const Vec3& n) {
     if (std::find(faces[f].corners.begin(), faces[f].corners.end(), corner) == faces[f].corners.end()) continue;
     if (best == faces.size() || solid.normals[f].dot(n) < solid.normals[best].dot(n)) best = f;
   }
-  return faces[best];
+  return best;
+}
+
+std::vector<Vec3> polygon_of(const Solid& solid, std::size_t face) {
+  std::vector<Vec3> polygon;
+  for (const std::size_t k : solid.shape.faces()[face].corners) polygon.push_back(solid.corners[k]);
+  return polygon;
+}
+
+double distance_to_line(const Vec3& x, const Vec3& tail, const Vec3& head) {
+  return (head - tail).normalized().cross(x - tail).norm();
+}
+
+// Two faces that look at each other, `low` with the unit normal n and `high`, tilted a little, with -n_high nearly n.
+// At the corner x of their common polygon a corner of `high` touches the face `low`, along n; or a corner of `low` the
+// face `high`, along -n_high; or an edge an edge, along their cross product.
+Vec3 normal_at(const Vec3& x, const std::vector<Vec3>& low, const Vec3& n, const std::vector<Vec3>& high,
+               const Vec3& n_high, double slack) {
+  for (const Vec3& corner : high) {
+    if ((x - corner).norm() <= slack) return n;
+  }
+  for (const Vec3& corner : low) {
+    if (n.cross(x - corner).norm() <= slack) return -n_high;
+  }
+  const auto edge_through = [](const std::vector<Vec3>& polygon, const Vec3& point) {
+    double nearest = std::numeric_limits<double>::infinity();
+    Vec3 edge = Vec3::Zero();
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Vec3 &tail = polygon[k], &head = polygon[(k + 1) % polygon.size()];
+      const double distance = distance_to_line(point, tail, head);
+      if (distance < nearest) {
+        nearest = distance;
+        edge = (head - tail).normalized();
+      }
+    }
+    return edge;
+  };
+  const Vec3 foot = x - n.dot(x - low[0]) * n;
+  const Vec3 crossed = across(edge_through(low, foot), edge_through(high, x));
+  // Where two edges touch, their normal lies between those of the faces, give or take the tilt. Edges that are nearly
+  // parallel span other directions; then corners close by tell the same, and the face's normal will do.
+  const double length = crossed.norm(), tilt = (n + n_high).norm();
+  if (length < kParallelAngle) return n;
+  const Vec3 normal = crossed / (n.dot(crossed) < 0 ? -length : length);
+  return (normal - n).norm() <= 2 * tilt ? normal : n;
 }
 
 // `side` = +1 where the face belongs to body b, so that its normal points to a; -1 where it is a's.
 std::vector<Contact> face_contacts(const Solid& solid, std::size_t face, const Solid& other, double side) {
   const Vec3& n = solid.normals[face];
   const double slack = 1e-10 * (solid.size + other.size);  // far above rounding, far below any size
-  std::vector<Vec3> polygon;
-  for (const std::size_t k : facing(other, n).corners) polygon.push_back(other.corners[k]);
-  const std::vector<std::size_t>& loop = solid.shape.faces()[face].corners;
-  for (std::size_t k = 0; k < loop.size() && !polygon.empty(); ++k) {
-    const Vec3 &tail = solid.corners[loop[k]], &head = solid.corners[loop[(k + 1) % loop.size()]];
-    polygon = clipped(polygon, n.cross(head - tail).normalized(), tail, slack);
+  const std::size_t opposite = facing(other, n);
+  const std::vector<Vec3> low = polygon_of(solid, face), high = polygon_of(other, opposite);
+  std::vector<Vec3> common = high;
+  for (std::size_t k = 0; k < low.size() && !common.empty(); ++k) {
+    const Vec3 &tail = low[k], &head = low[(k + 1) % low.size()];
+    common = clipped(common, n.cross(head - tail).normalized(), tail, slack);
   }
   std::vector<Contact> contacts;
-  for (const Vec3& x : polygon) {
-    const double gap = n.dot(x - solid.a_corner_of(face));
-    contacts.push_back({0, 0, x - 0.5 * gap * n, side * n, gap});
+  for (const Vec3& x : common) {
+    const double height = n.dot(x - low[0]);
+    const Vec3 normal = normal_at(x, low, n, high, other.normals[opposite], slack);
+    contacts.push_back({0, 0, x - 0.5 * height * n, side * normal, height * n.dot(normal)});
   }
   return contacts;
 }
@@ -180,7 +225,7 @@ std::vector<Contact> contacts_of(const Solid& a, const Solid& b) {
   // A corner on a rim touches along faces and edges alike: then the face is taken.
   const double preference = 1e-12 * (a.size + b.size);
   if (edges.separation > std::max(of_a.separation, of_b.separation) + preference) {
-    const auto alike = [&](const Vec3& n) { return n.cross(edges.normal_W).norm() < kParallelAngle; };
+    const auto alike = [&](const Vec3& n) { return n.cross(edges.normal_W).norm() < kLyingAngle; };
     const auto alike_a = [&](const Vec3& n) { return n.dot(edges.normal_W) < 0 && alike(n); };
     const auto alike_b = [&](const Vec3& n) { return n.dot(edges.normal_W) > 0 && alike(n); };
     of_a = best_face(a, b, alike_a);

@@ -15,6 +15,11 @@ namespace {
 // impacts is found; on straight lines no corner comes back, so that the series ends.
 constexpr int kParabolicImpacts = 8;
 
+// Boxes that settle upon boxes hand their rocking to and fro. After that many impacts in one step, those that a step of
+// gravity explains do not rebound, whether or not the bodies are held up, and the rest of the step is gone through as
+// one.
+constexpr int kChatter = 32;
+
 void rotate(BodyState& state, const Vec3& phi) {
   state.q_WB = rotation_by(phi) * state.q_WB;
   state.q_WB.normalize();  // rounding would let the length wander
@@ -133,7 +138,8 @@ void Simulator::kick(double dt) {
     states_[i].w_WB += free_[i].angular * dt;
   }
   std::vector<Contact> contacts = touching();
-  std::erase_if(contacts, [&](const Contact& c) { return !(approach_speed(c, states_) <= resting_speed(c)); });
+  const std::vector<bool> held = held_up(contacts);
+  std::erase_if(contacts, [&](const Contact& c) { return !(approach_speed(c, states_) <= resting_speed(c, held)); });
   support(contacts, states_);
 }
 
@@ -141,7 +147,7 @@ void Simulator::support(std::span<const Contact> contacts, std::span<BodyState> 
   if (contacts.empty()) return;
   std::vector<ImpactPoint> points;
   for (const Contact& c : contacts) points.push_back({c, 0, material_->friction});
-  apply_impulses(points, inertness(), states);
+  apply_impulses(points, inertness(), states, options_.leaps);
 }
 
 // The held accelerations of the coming `duration`, those of resting contacts included: whatever keeps the bodies from
@@ -182,7 +188,12 @@ void Simulator::fly(double duration, bool accelerated) {
                                " s: bodies are caught between others; take a smaller dt or allow more events");
     }
     duration -= *impact;
-    resolve_impacts();
+    const bool chatter = events >= kChatter;
+    const bool rebounds = resolve_impacts(chatter);
+    if (chatter && !rebounds && duration > 0) {
+      settle(duration);
+      return;
+    }
   }
 }
 
@@ -204,7 +215,8 @@ std::optional<double> Simulator::pair_impact(Pair pair, const Accelerations& hel
   const auto left_alone = [&](const Contact& c) { return c.gap <= tolerance(pair) && rests(c); };
 
   if (std::holds_alternative<Box>(shape_b)) {
-    if (!within_reach(pair, held, horizon) || rests_on(pair, contacts)) return std::nullopt;
+    if (!within_reach(pair, held, horizon)) return std::nullopt;
+    if (rests_on(pair, contacts)) return next_point_meets(pair, contacts, a, b, horizon);
     const std::optional<Touch> touch = shapes_meet(shape_a, a, shape_b, b, horizon);
     return touch ? std::optional(touch->time) : std::nullopt;
   }
@@ -253,14 +265,32 @@ void Simulator::move(const Accelerations& held, double horizon, double duration)
   }
 }
 
-// All points that touch at this instant get their impulses together.
-void Simulator::resolve_impacts() {
+// All points that touch at this instant get their impulses together. Whether any of them rebounds.
+bool Simulator::resolve_impacts(bool chatter) {
   std::vector<ImpactPoint> points;
-  for (const Contact& c : touching()) {
-    points.push_back(
-        {c, rebound_speed(approach_speed(c, states_), resting_speed(c), material_->restitution), material_->friction});
+  bool rebounds = false;
+  const std::vector<Contact> contacts = touching();
+  const std::vector<bool> held = chatter ? std::vector<bool>(bodies_.size(), true) : held_up(contacts);
+  for (const Contact& c : contacts) {
+    const double speed = rebound_speed(approach_speed(c, states_), resting_speed(c, held), material_->restitution);
+    points.push_back({c, speed, material_->friction});
+    rebounds = rebounds || speed > 0;
   }
-  apply_impulses(points, inertness(), states_);
+  apply_impulses(points, inertness(), states_, options_.leaps);
+  return rebounds;
+}
+
+// Straight on to the end of the step, with no point closing by more than its gap on the way.
+void Simulator::settle(double duration) {
+  std::vector<ImpactPoint> points;
+  std::vector<Contact> contacts;
+  for (const Pair pair : pairs_) append_contacts(bodies_, states_, pair, contacts);
+  for (const Contact& c : contacts) {
+    points.push_back({c, -std::max(c.gap, 0.0) / duration, material_->friction});
+  }
+  apply_impulses(points, inertness(), states_, options_.leaps);
+  const Accelerations none(bodies_.size());
+  move(none, duration, duration);
 }
 
 void Simulator::step_from_start(double dt) {
@@ -271,11 +301,13 @@ void Simulator::step_from_start(double dt) {
   }
   const std::span<const BodyState> counted = scheme_.impact == ImpactRule::kStepStart ? states_ : before;
   std::vector<ImpactPoint> points;
-  for (const Contact& c : touching()) {
-    points.push_back(
-        {c, rebound_speed(approach_speed(c, counted), resting_speed(c), material_->restitution), material_->friction});
+  const std::vector<Contact> contacts = touching();
+  const std::vector<bool> held = held_up(contacts);
+  for (const Contact& c : contacts) {
+    points.push_back({c, rebound_speed(approach_speed(c, counted), resting_speed(c, held), material_->restitution),
+                      material_->friction});
   }
-  apply_impulses(points, inertness(), states_);
+  apply_impulses(points, inertness(), states_, options_.leaps);
 
   // How much of the new velocity the positions see.
   const double share = scheme_.integrator == Integrator::kSemiImplicitEuler ? 1.0

@@ -17,6 +17,13 @@ double size_of(const Shape& shape) {
   return 0;
 }
 
+BodyState moved(const Motion& m, double t) {
+  BodyState s = m.start;
+  s.p_WB += t * s.v_WB + 0.5 * t * t * m.a_W;
+  s.q_WB = rotation_by(t * s.w_WB) * s.q_WB;
+  return s;
+}
+
 }  // namespace
 
 // Positions themselves are only known to rounding, which far from the origin is more than a part of the size.
@@ -64,11 +71,29 @@ double Simulator::rounding_speed(const Contact& c) const {
   return 1e4 * kEpsilon * (of(c.body_a) + of(c.body_b));
 }
 
-double Simulator::resting_speed(const Contact& c) const {
+// Bodies that touch a fixed one, or one that is held up.
+std::vector<bool> Simulator::held_up(std::span<const Contact> contacts) const {
+  std::vector<bool> held(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) held[i] = bodies_[i].fixed;
+  for (bool more = true; more;) {
+    more = false;
+    for (const Contact& c : contacts) {
+      if (held[c.body_a] == held[c.body_b]) continue;
+      held[c.body_a] = held[c.body_b] = more = true;
+    }
+  }
+  return held;
+}
+
+double Simulator::resting_speed(const Contact& c, const std::vector<bool>& held_up) const {
   const auto of = [&](std::size_t i) -> Vec3 {
     return free_[i].linear + free_[i].angular.cross(c.point_W - states_[i].p_WB);
   };
-  return std::max(2 * std::abs(c.normal_W.dot(of(c.body_a) - of(c.body_b))) * dt_, rounding_speed(c));
+  const double a = c.normal_W.dot(of(c.body_a)), b = c.normal_W.dot(of(c.body_b));
+  // In a pile the free accelerations of two neighbours are alike, and tell nothing of what presses them together.
+  const double pressing = held_up[c.body_a] ? std::max(std::abs(a), std::abs(b)) : 0;
+  return std::max(
+      {2 * std::abs(c.normal_W.dot(of(c.body_a) - of(c.body_b))) * dt_, 2 * pressing * dt_, rounding_speed(c)});
 }
 
 // Some point carries and none is pressed.
@@ -80,6 +105,39 @@ bool Simulator::rests_on(Pair pair, std::span<const Contact> contacts) const {
     carries = carries || rests(c);
   }
   return carries;
+}
+
+// Two boxes that rest on each other in some points meet in further ones: a box rocks upon a box. They part nowhere that
+// matters, so that the first moment at which a new point overlaps by the tolerance is found by bisection.
+std::optional<double> Simulator::next_point_meets(Pair pair, std::span<const Contact> contacts, const Motion& a,
+                                                  const Motion& b, double horizon) const {
+  const double limit = tolerance(pair);
+  const auto in_b = [](const Vec3& x_W, const BodyState& s) -> Vec3 { return s.q_WB.conjugate() * (x_W - s.p_WB); };
+  std::vector<Vec3> known;  // points that touch already
+  for (const Contact& c : contacts) {
+    if (c.gap <= limit) known.push_back(in_b(c.point_W, states_[pair.b]));
+  }
+  const double same = 0.05 * (size_of(bodies_[pair.a].shape) + size_of(bodies_[pair.b].shape));
+  std::vector<BodyState> at = states_;
+  std::vector<Contact> then;
+  const auto overlaps_anew = [&](double t) {
+    at[pair.a] = moved(a, t);
+    at[pair.b] = moved(b, t);
+    then.clear();
+    append_contacts(bodies_, at, pair, then);
+    return std::any_of(then.begin(), then.end(), [&](const Contact& c) {
+      const Vec3 x = in_b(c.point_W, at[pair.b]);
+      return c.gap < -limit &&
+             std::none_of(known.begin(), known.end(), [&](const Vec3& k) { return (k - x).norm() < same; });
+    });
+  };
+  if (!overlaps_anew(horizon)) return std::nullopt;
+  double before = 0, after = horizon;
+  for (int k = 0; k < 60 && after - before > 1e-15 * horizon; ++k) {
+    const double middle = 0.5 * (before + after);
+    (overlaps_anew(middle) ? after : before) = middle;
+  }
+  return after;
 }
 
 bool Simulator::rests(const Contact& c) const { return std::abs(approach_speed(c, states_)) <= rounding_speed(c); }

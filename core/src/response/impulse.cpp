@@ -14,6 +14,7 @@ namespace {
 constexpr int kMaxSweeps = 1000;
 constexpr double kRelativeChange = 1e-14;
 constexpr int kSweepsPerLeap = 8;
+constexpr int kTries = 6;  // of one leap
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 void push(BodyState& state, const Inertness& body, const Vec3& point_W, const Vec3& impulse_W) {
@@ -86,18 +87,24 @@ bool chained(std::span<const ImpactPoint> points, std::span<const Inertness> ine
          });
 }
 
-// Solves for the points that push and sweeps once. Kept if that sweep has less to change than the last one.
+// Solves for the points that push, and sweeps once; again while that tells that other points push, grip or slide. Kept
+// once a sweep has less to change than the last one before.
 void leap(std::span<const ImpactPoint> points, std::span<const Inertness> inertness, std::span<const BodyState> start,
           Search& search) {
   Search trial = search;
-  solve_pushing_points(points, inertness, search.states, trial.impulses);
-  trial.states.assign(start.begin(), start.end());
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const PointImpulse& p = trial.impulses[k];
-    push_pair(trial.states, inertness, points[k].contact, p.normal * points[k].contact.normal_W + p.tangent);
+  for (int tries = 0; tries < kTries; ++tries) {
+    solve_pushing_points(points, inertness, trial.states, trial.impulses);
+    trial.states.assign(start.begin(), start.end());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const PointImpulse& p = trial.impulses[k];
+      push_pair(trial.states, inertness, points[k].contact, p.normal * points[k].contact.normal_W + p.tangent);
+    }
+    sweep(points, inertness, trial);
+    if (trial.change < search.change) {
+      search = std::move(trial);
+      return;
+    }
   }
-  sweep(points, inertness, trial);
-  if (trial.change < search.change) search = std::move(trial);
 }
 
 }  // namespace
@@ -110,24 +117,24 @@ Inertness inertness_of(const Body& body, const Quat& q_WB) {
 }
 
 ImpulseReport apply_impulses(std::span<const ImpactPoint> points, std::span<const Inertness> inertness,
-                             std::span<BodyState> states) {
+                             std::span<BodyState> states, Leaps leaps) {
   ImpulseReport report;
   report.converged = points.empty();
   Search search;
   search.states.assign(states.begin(), states.end());
   for (const ImpactPoint& p : points) search.impulses.push_back(prepared(p.contact, inertness, states));
 
-  const bool leaps = chained(points, inertness);
+  const bool may_leap = leaps == Leaps::kAlways || (leaps == Leaps::kForChains && chained(points, inertness));
   while (!report.converged && report.sweeps < kMaxSweeps) {
     ++report.sweeps;
-    if (leaps && report.sweeps % kSweepsPerLeap == 0) {
+    if (may_leap && report.sweeps % kSweepsPerLeap == 0) {
       leap(points, inertness, states, search);
     } else {
       sweep(points, inertness, search);
     }
     // Grazing impulses are smaller than what the rounding of large velocities is worth. That they will not settle any
     // further shows when the sweeps are over.
-    const bool at_last = leaps || report.sweeps == kMaxSweeps;
+    const bool at_last = may_leap || report.sweeps == kMaxSweeps;
     const double settled = kRelativeChange * search.largest;
     report.converged = search.change <= (at_last ? std::max(settled, search.rounding) : settled);
     if (std::isnan(search.change)) break;

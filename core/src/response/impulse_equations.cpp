@@ -69,7 +69,7 @@ Equation equation_of(const ImpactPoint& point, const PointImpulse& p, const Mat3
     const Eigen::Vector2d d = q / length;
     const Eigen::Matrix2d turn = bound / length * (identity - d * d.transpose());
     e.value.tail<2>() = impulse.tail<2>() - bound * d;
-    e.by_impulse.bottomRightCorner<2, 2>() = identity - turn;
+    e.by_impulse.bottomRightCorner<2, 2>() = (1 + kShare) * identity - turn;
     e.by_impulse.bottomLeftCorner<2, 1>() = -point.friction * d;
     e.by_velocity.bottomRightCorner<2, 2>() = p.tangent_mass * turn;
   }

@@ -145,9 +145,10 @@ TEST(BoxManifold, HasTheDistanceOfBoxesThatNearlyTouch) {
                                            [](const Contact& x, const Contact& y) { return x.gap < y.gap; });
     ASSERT_NEAR(nearest.gap, exact, 64 * kEps * 8) << k;
     ASSERT_NEAR(nearest.normal_W.norm(), 1, 8 * kEps) << k;
-    // Halfway between the surfaces, on both boxes' skins to within half of the gap.
-    ASSERT_NEAR(distance_to_box(nearest.point_W, a), 0.5 * exact, 64 * kEps * 8) << k;
-    ASSERT_NEAR(distance_to_box(nearest.point_W, b), 0.5 * exact, 64 * kEps * 8) << k;
+    // Halfway between the surfaces; where edges cross above a face that is tilted by up to kLyingAngle, halfway along
+    // the face's normal, which is longer by kLyingAngle^2/2.
+    ASSERT_NEAR(distance_to_box(nearest.point_W, a), 0.5 * exact, 0.01 * exact) << k;
+    ASSERT_NEAR(distance_to_box(nearest.point_W, b), 0.5 * exact, 0.01 * exact) << k;
     // Moved by d along the normal, a is at d more: the normal is the right one, to sqrt(2 * 1e-15/d) and better.
     PlacedBox moved = a;
     moved.state.p_WB += 1e-3 * nearest.normal_W;

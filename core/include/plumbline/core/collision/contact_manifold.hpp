@@ -8,12 +8,13 @@
 //    M. Lin, D. Manocha, OBBTree, SIGGRAPH 1996). The one along which they are farthest apart, or overlap least, is the
 //    normal.
 // 2. A face's normal: the other body's facing polygon is clipped at the sides of that face (Sutherland and Hodgman
-//    1974), and each corner of what is left is a contact with its own height above the face. Where faces are parallel
-//    this is their common polygon: 4 points for a box upon a larger one, 8 for equal squares turned by 45 degrees.
-//    Two edges: one contact, where the edges come closest.
+//    1974), and each corner of what is left is a contact with its own gap. Where faces are parallel this is their
+//    common polygon: 4 points for a box upon a larger one, 8 for equal squares turned by 45 degrees. Where one is
+//    tilted a little, each point has the normal of the features that touch there: corner on face, face on corner, edge
+//    on edge. Two edges, with no face that lies along their normal: one contact, where the edges come closest.
 //
-// Points lie halfway between the two surfaces, so that they do not depend on which body is called a, and normals just
-// change their sign. Gaps [m] are measured along the normal.
+// Points lie halfway between the two surfaces (between a tilted body and a face, along the face's normal), so that they
+// do not depend on which body is called a, and normals just change their sign. Gaps [m] are measured along the normal.
 //
 // Valid for bodies that touch, nearly touch, or overlap by little compared with their size: the gap of the nearest
 // point is then their distance, or minus the depth of overlap. Bodies whose nearest features are corner against
@@ -35,9 +36,11 @@ std::vector<Contact> box_box_contacts(const BodyState& a, const Vec3& size_a, co
 std::vector<Contact> convex_contacts(const ConvexPolyhedron& a, const BodyState& state_a, const ConvexPolyhedron& b,
                                      const BodyState& state_b);
 
-// Faces and edges whose directions differ by less than this [rad] count as parallel: a body that was laid down flat is
-// flat to rounding, 1e-13 or so after many steps, and must keep all of its corners. At touch the points of such a
-// manifold are exact, and its normal is off by that angle at most.
+// Edges whose directions differ by less than this [rad] count as parallel.
 inline constexpr double kParallelAngle = 1e-6;
+
+// Below this angle [rad] between the normal of two touching edges and that of a face, a body is one that lies down, or
+// rocks, on that face: all the points are listed at which it may come to lie, and not just the crossing of the edges.
+inline constexpr double kLyingAngle = 0.1;
 
 }  // namespace plumbline

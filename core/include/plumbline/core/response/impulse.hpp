@@ -33,6 +33,13 @@ struct ImpulseReport {
   bool converged = false;
 };
 
+// When the search leaps, see below.
+enum class Leaps {
+  kForChains,  // where a moving body presses on a moving body
+  kAlways,
+  kNever,  // sweeps alone: what the other two are measured against
+};
+
 // Changes the velocities in `states` by the impulses J = J_n n + J_t that satisfy, at all points at once:
 //
 //   along the normal   J_n >= 0,  v_n >= rebound_speed,  J_n (v_n - rebound_speed) = 0   (bodies push, never pull)
@@ -44,13 +51,13 @@ struct ImpulseReport {
 // too). Velocities are computed once more from the final impulses, so that momentum is kept to rounding whatever the
 // number of sweeps. NaN in, NaN out.
 //
-// Where moving bodies press on moving bodies, sweeps alone are slow: a stack of n boxes takes about n^2 times as many.
-// There every eighth sweep is preceded by a leap: the linear equations of the points that push are solved at once, as
-// if it were known that these go on pushing, gripping and sliding as they do; the sweep then judges the outcome, and it
-// is kept if there is less left to change. A stack of ten settles after 16 sweeps, which 1000 did not do before.
-// (M. Silcowitz, S. Niebe, K. Erleben, Projected Gauss-Seidel subspace minimization method for interactive rigid body
-// dynamics, GRAPP 2010.)
+// Sweeps alone are slow where loads are handed on from body to body, a stack of n boxes takes about n^2 times as many,
+// and where friction is all but used up. So every eighth sweep may be preceded by a leap: the linear equations of the
+// points that push are solved at once, as if it were known that these go on pushing, gripping and sliding as they do;
+// the sweep then judges the outcome, and it is kept if there is less left to change. A stack of ten settles after 16
+// sweeps, which 1000 do not do alone. (M. Silcowitz, S. Niebe, K. Erleben, Projected Gauss-Seidel subspace minimization
+// method for interactive rigid body dynamics, GRAPP 2010.)
 ImpulseReport apply_impulses(std::span<const ImpactPoint> points, std::span<const Inertness> inertness,
-                             std::span<BodyState> states);
+                             std::span<BodyState> states, Leaps leaps = Leaps::kForChains);
 
 }  // namespace plumbline
