@@ -190,8 +190,8 @@ void Simulator::fly(double duration, bool accelerated) {
     duration -= *impact;
     const bool chatter = events >= kChatter;
     const bool rebounds = resolve_impacts(chatter);
-    if (chatter && !rebounds && duration > 0) {
-      settle(duration);
+    if (chatter && !rebounds) {
+      if (duration > 0) settle(duration);
       return;
     }
   }

@@ -88,8 +88,8 @@ bool chained(std::span<const ImpactPoint> points, std::span<const Inertness> ine
 }
 
 // Solves for the points that push, and sweeps once; again while that tells that other points push, grip or slide. Kept
-// once a sweep has less to change than the last one before.
-void leap(std::span<const ImpactPoint> points, std::span<const Inertness> inertness, std::span<const BodyState> start,
+// once a sweep has less to change than the last one before; whether it came to that.
+bool leap(std::span<const ImpactPoint> points, std::span<const Inertness> inertness, std::span<const BodyState> start,
           Search& search) {
   Search trial = search;
   for (int tries = 0; tries < kTries; ++tries) {
@@ -102,9 +102,10 @@ void leap(std::span<const ImpactPoint> points, std::span<const Inertness> inertn
     sweep(points, inertness, trial);
     if (trial.change < search.change) {
       search = std::move(trial);
-      return;
+      return true;
     }
   }
+  return false;
 }
 
 }  // namespace
@@ -125,10 +126,15 @@ ImpulseReport apply_impulses(std::span<const ImpactPoint> points, std::span<cons
   for (const ImpactPoint& p : points) search.impulses.push_back(prepared(p.contact, inertness, states));
 
   const bool may_leap = leaps == Leaps::kAlways || (leaps == Leaps::kForChains && chained(points, inertness));
+  int pause = kSweepsPerLeap, next_leap = pause;
   while (!report.converged && report.sweeps < kMaxSweeps) {
     ++report.sweeps;
-    if (may_leap && report.sweeps % kSweepsPerLeap == 0) {
-      leap(points, inertness, states, search);
+    if (may_leap && report.sweeps == next_leap) {
+      if (!leap(points, inertness, states, search)) {
+        sweep(points, inertness, search);
+        pause *= 2;
+      }
+      next_leap += pause;
     } else {
       sweep(points, inertness, search);
     }

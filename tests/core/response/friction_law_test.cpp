@@ -33,7 +33,8 @@ double distance_down(const Scenario& s, double angle, double dt, Integrator inte
 }
 
 // Half a second at an angle d too steep slides g d / cos(atan mu) / 8 m or more. What counts as sliding is 1e-11 m,
-// a hundred times what a resting box drifts: the threshold is known to 1e-10 rad.
+// a hundred times what a resting box drifts. The leaps hold a grip up to 1e-10 of it (kShare in impulse_equations.cpp),
+// and the angle turns the load by that times 1 + mu^2 <= 50: within 1e-8 rad creeping and sliding are not told apart.
 TEST(FrictionLaw, LetsABoxSlideBeyondTheAngleOfFriction) {
   for (const double mu : {0.1, 0.3, 0.6, 1.0, 7.0}) {
     double sticks = 0, slides = 1.55;
@@ -43,7 +44,7 @@ TEST(FrictionLaw, LetsABoxSlideBeyondTheAngleOfFriction) {
       const Body box = solid("box", Box{Vec3(1, 1, 0.1)}, 1, Vec3(0, 0, 0.05), Vec3::Zero());
       (distance_down(on_slope(box, angle, mu, 0.5), angle, 0.05) > 1e-11 ? slides : sticks) = angle;
     }
-    EXPECT_NEAR(slides, std::atan(mu), 1e-10) << mu;
+    EXPECT_NEAR(slides, std::atan(mu), 1e-8) << mu;
   }
 }
 

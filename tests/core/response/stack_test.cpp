@@ -194,13 +194,12 @@ TEST(Stack, OverhangsUpToHalfACube) {
   }
 }
 
-// Dropped with air between: an impact each, with restitution, and at last a stack.
+// Dropped with air between: impacts with restitution, rocking, and at last a stack.
 TEST(Stack, FormsFromFallingCubes) {
-  const Scenario s =
-      on_the_ground({cube(1, Vec3(0, 0, 0.7)), cube(1, Vec3(0.1, 0, 2.0)), cube(1, Vec3(-0.1, 0.1, 3.3))}, 0.3, 0.5, 4);
+  const Scenario s = on_the_ground({cube(1, Vec3(0, 0, 0.55)), cube(1, Vec3(0.1, 0.05, 1.6))}, 0.3, 0.5, 2);
   for (const Integrator integrator : {kSemiImplicitEuler, kVelocityVerlet}) {
     const Trajectory path = simulate(s, {integrator, kExactTime}, 1.0 / 120);
-    for (std::size_t i = 1; i < 4; ++i) {
+    for (std::size_t i = 1; i < 3; ++i) {
       const BodyState& end = path.at(path.samples() - 1, i);
       // While a cube rocks at w = 0.3 rad/s or less, a corner that rests leaves its straight line by w^2 r dt^2/2 =
       // 2e-6 m in a step, and overlap is never pushed out.

@@ -52,11 +52,11 @@ enum class Leaps {
 // number of sweeps. NaN in, NaN out.
 //
 // Sweeps alone are slow where loads are handed on from body to body, a stack of n boxes takes about n^2 times as many,
-// and where friction is all but used up. So every eighth sweep may be preceded by a leap: the linear equations of the
-// points that push are solved at once, as if it were known that these go on pushing, gripping and sliding as they do;
-// the sweep then judges the outcome, and it is kept if there is less left to change. A stack of ten settles after 16
-// sweeps, which 1000 do not do alone. (M. Silcowitz, S. Niebe, K. Erleben, Projected Gauss-Seidel subspace minimization
-// method for interactive rigid body dynamics, GRAPP 2010.)
+// and where friction is all but used up. So every eighth sweep (ever fewer, where it does not help) may be preceded by
+// a leap: the linear equations of the points that push are solved at once, as if it were known that these go on
+// pushing, gripping and sliding as they do; the sweep then judges the outcome, and it is kept if there is less left to
+// change. A stack of ten settles after 16 sweeps, which 1000 do not do alone. (M. Silcowitz, S. Niebe, K. Erleben,
+// Projected Gauss-Seidel subspace minimization method for interactive rigid body dynamics, GRAPP 2010.)
 ImpulseReport apply_impulses(std::span<const ImpactPoint> points, std::span<const Inertness> inertness,
                              std::span<BodyState> states, Leaps leaps = Leaps::kForChains);
 
