@@ -68,7 +68,6 @@ TEST(ConvexPolyhedron, HullHoldsAllPointsAndObeysEuler) {
       for (const Vec3& p : points) highest = std::max(highest, face.normal_B.dot(p) - face.offset);
       EXPECT_NEAR(highest, 0, ConvexPolyhedron::kFlatness * 4) << "trial " << trial;  // clouds of 4 m across at most
     }
-    // Every corner is one of the points, and none can be spared: it is in front of all planes of the hull of the rest.
     for (const Vec3& corner : hull.vertices_B())
       EXPECT_NE(std::find(points.begin(), points.end(), corner), points.end());
   }

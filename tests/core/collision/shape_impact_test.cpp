@@ -40,8 +40,9 @@ TEST(ShapeImpact, OfEveryPairIsThatOfTheGap) {
   EXPECT_EQ(shapes_meet(ground, Motion{}, ground, Motion{}, 10), std::nullopt);
 }
 
-// A ball that turns with a cube in it, or about it: a small sphere and a tiny cube at its centre meet the same box at
-// times that differ by no more than the corner of the cube can be away from the sphere's surface.
+// A cube holds the sphere through the middles of its faces and lies in the one through its corners: it cannot meet
+// anything later than the one, nor earlier than the other. Boxes, spheres and their mixture are computed in different
+// ways.
 TEST(ShapeImpact, OfABoxLiesBetweenThoseOfItsInnerAndOuterSphere) {
   SceneRandom random(31);
   int hits = 0;
