@@ -82,7 +82,9 @@ void DormandPrince<State>::attempt(const Rhs& f, double h) {
   [&]<std::size_t... I>(std::index_sequence<I...>) { (evaluate<I + 1>(f, h), ...); }
   (std::make_index_sequence<kStages - 1>());
   effort_.evaluations += kStages - 1;
-  increment_ = increment<Solution>(h, k_) + y_carry_;
+  // Here h stays outside: rounded weights h b_i would not add up to h, and the clock of the solution would be wrong by
+  // that.
+  increment_ = h * increment<Solution>(1, k_) + y_carry_;
   y_new_ = y_ + increment_;
 }
 
