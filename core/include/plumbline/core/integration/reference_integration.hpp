@@ -2,7 +2,7 @@
 //
 // Dormand-Prince 8(5,3) with compensated summation (dormand_prince.hpp) on the equations of body_equations.hpp. What it
 // reaches over 10 s, against Taylor series in extended precision (reference_integration_test.cpp): a box that flips
-// over its unstable axis 4e-11 rad, a heavy top that turns through 1500 rad 5e-12 rad, a nutating one 8e-13 rad. The
+// over its unstable axis 2e-11 rad, a heavy top that turns through 1500 rad 2e-12 rad, a nutating one 8e-13 rad. The
 // box needs steps that are right to 1e-16: near its separatrix each flip magnifies errors by some thousand.
 //
 // Range: smooth fields (no impacts, no friction that switches; cut the run there), not stiff, and not chaotic: the
