@@ -1,6 +1,7 @@
 // Bodies that rest on bodies: stacks, bridges, overhangs, weights handed down from interface to interface.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -81,7 +82,7 @@ TEST(Stack, StandsForTenSecondsWithoutDrift) {
     for (const double mu : {0.0, 0.5}) {
       for (const Scheme scheme : {Scheme{kSemiImplicitEuler, kExactTime}, Scheme{kVelocityVerlet, kExactTime},
                                   Scheme{kExplicitEuler, kExactTime}, Scheme{kSemiImplicitEuler, kStepStart}}) {
-        if (n == 10 && scheme.integrator != kSemiImplicitEuler) continue;  // the same again, and slow
+        if (n > 2 && (scheme != Scheme{} || mu == 0)) continue;  // the same again, and slow
         const double drift = largest_drift(simulate(stack(n, mu, 10), scheme, 1.0 / 60));
         EXPECT_LT(drift, 1e-12) << n << " cubes, mu " << mu << ", " << name(scheme);
         if (scheme == Scheme{}) RecordProperty("drift_of_" + std::to_string(n), std::to_string(drift * 1e15) + "e-15");
@@ -195,7 +196,7 @@ TEST(Stack, OverhangsUpToHalfACube) {
 }
 
 Trajectory falling_pair(double restitution, Integrator integrator, double dt) {
-  return simulate(on_the_ground({cube(1, Vec3(0, 0, 0.55)), cube(1, Vec3(0.1, 0.05, 1.6))}, restitution, 0.5, 2),
+  return simulate(on_the_ground({cube(1, Vec3(0, 0, 0.55)), cube(1, Vec3(0.1, 0.05, 1.6))}, restitution, 0.5, 1.25),
                   {integrator, kExactTime}, dt);
 }
 
@@ -218,7 +219,7 @@ TEST(Stack, FormsFromFallingCubes) {
 // Semi-implicit Euler gives all of a step's gravity at its start, so that corners on their way hit with g dt more than
 // they should, and rebound with e times that: two cubes go on rocking for seconds, by less than g dt^2 and 2 g dt.
 TEST(Stack, RocksWithinOneStepOfFallUnderSemiImplicitEuler) {
-  for (const double dt : {1.0 / 120, 1.0 / 240}) {
+  for (const double dt : {1.0 / 60, 1.0 / 120}) {
     const Trajectory path = falling_pair(0.3, kSemiImplicitEuler, dt);
     for (std::size_t k = path.samples() / 2; k < path.samples(); ++k) {
       for (std::size_t i = 1; i < 3; ++i) {
