@@ -13,6 +13,12 @@ std::optional<Impact> EventDrivenSimulator::next_impact(double until) {
                                 std::to_string(now_) + " s");
   }
   for (;;) {
+    if (!due_.empty()) {
+      const Impact impact = due_.back();
+      due_.pop_back();
+      ++counts_.impacts;
+      return impact;
+    }
     const int i = queue_.first();
     const Event event = events_[static_cast<std::size_t>(i)];
     if (event.kind == EventKind::kNone || event.time > until) {

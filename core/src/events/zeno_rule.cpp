@@ -156,8 +156,13 @@ bool EventDrivenSimulator::undisturbed(int i, int wall, const BounceTrain& train
 // Back to single bounces, from where the ball is now.
 void EventDrivenSimulator::leave_train(int i) {
   Body& body = bodies_[static_cast<std::size_t>(i)];
-  const int wall = trains_.at(i).wall;
+  const auto [bounces, wall] = trains_.at(i);
   place_now(body, static_cast<std::size_t>(i));
+  // What the wall has given so far: the change of the normal speed, and the weight that it held.
+  const double given = bounces.at(now_).speed - bounces.speed + bounces.pull * (now_ - bounces.start);
+  const Vec3& n = scene_.walls[static_cast<std::size_t>(wall)].plane.normal_W;
+  due_.push_back(
+      {now_, static_cast<std::size_t>(i), static_cast<std::size_t>(wall), true, false, given / body.inverse_mass * n});
   std::erase(body.supports, wall);
   support(body);
   body.in_train = false;

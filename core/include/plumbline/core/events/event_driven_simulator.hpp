@@ -50,13 +50,15 @@
 
 namespace plumbline {
 
-// One impact, as it stands in the log.
+// One impact, as it stands in the log. Impacts are listed one by one, but for trains of bounces: these have one entry
+// for all of them, at the time when the ball comes to rest or the train is taken back. The sum of the impulses so
+// always is the momentum that went over.
 struct Impact {
   double time = 0;          // [s]
   std::size_t ball = 0;     // of two balls the one with the smaller index
   std::size_t partner = 0;  // the other ball, or the wall
   bool with_wall = false;
-  bool comes_to_rest = false;     // on that wall; the impulse is then that of all bounces of the train together
+  bool comes_to_rest = false;     // on that wall
   Vec3 impulse_W = Vec3::Zero();  // on `ball`; the partner gets its opposite [N s]
 };
 
@@ -181,6 +183,7 @@ class EventDrivenSimulator {
     int wall;
   };
   std::map<int, Train> trains_;  // by body
+  std::vector<Impact> due_;      // entries of trains that were taken back, to be listed next
   EventCounts counts_;
 };
 
