@@ -268,7 +268,7 @@ TEST(ZenoRule, StackKeepsHoppingOutOfSight) {
   EventScene scene = floor_scene(0.5);
   scene.balls = {above(0, 0.1), above(0.25, 0.1)};
   EventDrivenSimulator simulator(scene);
-  simulator.run_until(1);
+  simulator.run_until(0.4);  // 60,000 impacts after it has settled at 0.27 s
   EXPECT_NEAR(simulator.ball(0).p_WB.z(), 0.1, 1e-8);
   EXPECT_NEAR(simulator.ball(1).p_WB.z(), 0.3, 1e-8);
 }
