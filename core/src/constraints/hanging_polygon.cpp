@@ -1,6 +1,5 @@
 #include "plumbline/core/constraints/hanging_polygon.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -49,11 +48,14 @@ HangingPolygon hanging_polygon(const Vec3& first_W, const Vec3& last_W, std::spa
   if (!(end.x() > 0)) throw std::invalid_argument("a hanging polygon needs ends that are not above each other");
   if (!(length > end.norm())) throw std::invalid_argument("a hanging polygon needs links longer than the way between");
 
-  const double longest = *std::max_element(lengths.begin(), lengths.end());
-  if (!(longest <= length - longest + end.norm()))
-    throw std::invalid_argument(
-        "a hanging polygon cannot close: its longest link must be no longer than the others and "
-        "the way between together");
+  // Would the chain reach with the links before k hanging straight down and those after it straight up, link k slack?
+  double drop = length;  // of the links after k, minus that of those before
+  for (const double l : lengths) {
+    drop -= l;
+    if (std::hypot(end.x(), end.y() - drop) <= l)
+      throw std::invalid_argument("a hanging polygon has a link so long that it would have to push: make it shorter");
+    drop -= l;
+  }
 
   std::vector<double> below(lengths.size(), 0);  // weight of the joints before each link
   std::partial_sum(weights.begin(), weights.end(), below.begin() + 1);
@@ -76,6 +78,9 @@ HangingPolygon hanging_polygon(const Vec3& first_W, const Vec3& last_W, std::spa
     pull += share * step;
     at = next;
   }
+
+  if (!(at.slope.norm() <= 1e-9 * length))
+    throw std::invalid_argument("a hanging polygon was not found: its links are too nearly as long as the way between");
 
   HangingPolygon result;
   const Vec3 ahead = reach / end.x();

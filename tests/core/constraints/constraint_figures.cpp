@@ -36,14 +36,12 @@ void residual_against_sweeps() {
     for (const RelaxationReport& report : reports) std::printf(" %.1e |", report.residuals[k]);
     std::printf("\n");
   }
-  // Between the sweeps at which the residual passes 1e-5 and 1e-9, or the last ones there are.
+  // Over the second half of the sweeps until 1e-9, where only the slowest mode is left.
   std::printf("| factor per sweep |");
   for (const RelaxationReport& report : reports) {
-    std::size_t from = 0, to = 0;
-    for (std::size_t k = 0; k < report.residuals.size(); ++k) {
-      if (report.residuals[k] > 1e-5) from = k;
-      if (report.residuals[k] > 1e-9) to = k;
-    }
+    std::size_t to = 0;
+    while (to + 1 < report.residuals.size() && report.residuals[to] > 1e-9) ++to;
+    const std::size_t from = to / 2;
     std::printf(" %.6f |", std::pow(report.residuals[to] / report.residuals[from], 1 / static_cast<double>(to - from)));
   }
   std::printf("\n| cos^2(pi/2N) |");

@@ -12,8 +12,8 @@
 // rotation (constraint.hpp). It changes the lengths of the bones a little, in second order; the links of the list put
 // them right.
 //
-// That it is the smallest is tested for violations up to 1 rad. From more than a right angle off the nearest place may
-// be an arm of no length: there is no smallest motion then, and one that restores the angle is made.
+// That it is the smallest is tested for violations up to 0.5 rad. From more than a right angle off the nearest place
+// may be an arm of no length: there is no smallest motion then, and one that restores the angle is made.
 #pragma once
 
 #include <optional>

@@ -27,8 +27,9 @@ struct HangingPolygon {
 
 // From `first_W` to `last_W` by links of those lengths [m], with a weight >= 0 [N] at each joint between; gravity along
 // -z. Throws std::invalid_argument unless there is one weight fewer than links, some weight, lengths > 0 that together
-// exceed the distance of the ends, no link longer than all the others and that distance, and a horizontal distance
-// between them (a chain that hangs straight down and up again has a fold, which is not covered).
+// exceed the distance of the ends, and a horizontal distance between them (a chain that hangs straight down and up
+// again has a fold, which is not covered); and for a link so long that it would have to push: if the chain reaches with
+// the links before it hanging straight down, those after it straight up, and that one slack.
 HangingPolygon hanging_polygon(const Vec3& first_W, const Vec3& last_W, std::span<const double> lengths,
                                std::span<const double> weights);
 
