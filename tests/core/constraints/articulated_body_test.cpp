@@ -68,6 +68,7 @@ TEST(HangingPolygon, TendsToTheCatenaryWithTheSquareOfTheLinkLength) {
   }
   EXPECT_NEAR(observed_order(errors), 2, 0.05);
   EXPECT_LT(errors.back(), 1e-4);
+  RecordProperty("order", measured(observed_order(errors)));
 }
 
 TEST(HangingPolygon, OfTwoLinksIsATriangle) {
@@ -111,12 +112,17 @@ TEST(Bridge, HangsAsTheExactPolygonWithTheExactTensions) {
   const HangingPolygon exact =
       hanging_polygon(Vec3::Zero(), Vec3(3, 0, 0), std::vector<double>(10, 0.5), std::vector<double>(9, 0.2 * kG));
   const Bridge bridge = settled(Pull::kStart, 0.02);
+  double error = 0, force_error = 0;
   for (std::size_t k = 0; k < 10; ++k) {
     // Slowest swing, w^2 of some g/(1 m), damped by exp(-2 t): e^-40 after 20 s. The residual of 1e-13 leaves N^2 of
     // it.
     EXPECT_LE((bridge.p_W[k] - exact.p_W[k]).norm(), 1e-11) << k;
     EXPECT_NEAR(bridge.forces[k], exact.tensions[k], 1e-8) << k;  // the same times m/h^2
+    error = std::max(error, (bridge.p_W[k] - exact.p_W[k]).norm());
+    force_error = std::max(force_error, std::abs(bridge.forces[k] - exact.tensions[k]));
   }
+  RecordProperty("error", measured(error));
+  RecordProperty("force_error", measured(force_error));
 }
 
 TEST(Bridge, PulledAsOnTheSlideHangsAsideInSecondOrderOfTheStep) {
@@ -130,7 +136,8 @@ TEST(Bridge, PulledAsOnTheSlideHangsAsideInSecondOrderOfTheStep) {
     errors.push_back(error);
   }
   EXPECT_NEAR(observed_order(errors), 2, 0.05);
-  RecordProperty("error_mm", std::to_string(1e3 * errors.back()));
+  RecordProperty("order", measured(observed_order(errors)));
+  RecordProperty("error_mm", measured(1e3 * errors.back()));
 }
 
 std::vector<double> masses_of(const Assembly& assembly) {
@@ -194,7 +201,7 @@ TEST(RagDoll, DroppedOnTheFloorKeepsItsBonesAndAngles) {
   double highest = 0;
   for (const Vec3& p : run.positions()) highest = std::max(highest, p.z());
   EXPECT_LT(highest, 0.9);
-  RecordProperty("sweeps_per_step", std::to_string(sweeps / 400.0));
+  RecordProperty("sweeps_per_step", measured(sweeps / 400.0));
 }
 
 TEST(RagDoll, TumblingInSpaceKeepsItsMomentaWhileItsAnglesHitTheirLimits) {
@@ -229,7 +236,7 @@ TEST(RagDoll, TumblingInSpaceKeepsItsMomentaWhileItsAnglesHitTheirLimits) {
       EXPECT_LT((l1 - l0).norm(), l0.norm());
       EXPECT_GT((l1 - l0).norm(), 1e-3 * l0.norm());  // first order in h: not kept
     }
-    RecordProperty(pull == Pull::kStart ? "loss_start" : "loss_minimal", std::to_string((l1 - l0).norm() / l0.norm()));
+    RecordProperty(pull == Pull::kStart ? "loss_start" : "loss_minimal", measured((l1 - l0).norm() / l0.norm()));
   }
 }
 

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "plumbline/core/constraints/constraint.hpp"
@@ -62,6 +65,13 @@ inline std::vector<Vec3> moved(std::span<const Vec3> p_W, const PerParticle& d_W
 // Order with which errors fall when the step is halved: the slope of their logarithms, first to last.
 inline double observed_order(std::span<const double> errors) {
   return std::log2(errors.front() / errors.back()) / static_cast<double>(errors.size() - 1);
+}
+
+// A measured number for RecordProperty (see it with --gtest_output=xml).
+inline std::string measured(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3e", value);
+  return text;
 }
 
 }  // namespace plumbline::particles

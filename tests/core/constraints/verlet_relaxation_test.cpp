@@ -66,7 +66,9 @@ TEST(RelaxedPendulum, HasTheExactPeriodInTheOrderOfItsPull) {
     // The slide's pull is damped in first order and swings less wide, so faster; SHAKE's is of second order.
     const double order = pull == Pull::kMinimal ? 1 : 2;
     EXPECT_NEAR(observed_order(errors), order, 0.05);
-    RecordProperty(pull == Pull::kMinimal ? "minimal_error" : "start_error", std::to_string(errors.back()));
+    const std::string name = pull == Pull::kMinimal ? "minimal" : "start";
+    RecordProperty(name + "_error", measured(errors.back()));
+    RecordProperty(name + "_order", measured(observed_order(errors)));
   }
 }
 
@@ -147,16 +149,19 @@ TEST(RelaxedChain, SwingsWithTheFrequenciesOfTheLaguerrePolynomial) {
         VerletRelaxation run(make_chain(p, 1), h, options_of(pull, Vec3(0, 0, -kG), 1e-15, 400));
         const auto times = crossings(run, h, 3, [](std::span<const Vec3> q) { return q[3].x(); });
         ASSERT_EQ(times.size(), 3u);
-        const double measured = 2 * std::numbers::pi / (times[2] - times[0]);
+        const double found = 2 * std::numbers::pi / (times[2] - times[0]);
         // SHAKE is Verlet in the chain's angles. The interpolation of a zero errs by (wh)^4 times 1/100 or so, and
         // slopes of up to 14 amplitude/l by their squares, 3e-9. (By the slide's pull each link is put right where the
         // others are not yet: second order, but not atan(w h)/h.)
         if (pull == Pull::kStart) {
-          EXPECT_NEAR(measured * h / (2 * std::asin(wh / 2)), 1, 0.02 * std::pow(wh, 4) + 1e-7) << x << " " << wh;
+          EXPECT_NEAR(found * h / (2 * std::asin(wh / 2)), 1, 0.02 * std::pow(wh, 4) + 1e-7) << x << " " << wh;
         }
-        errors.push_back(std::abs(measured / w - 1));
+        errors.push_back(std::abs(found / w - 1));
       }
       EXPECT_NEAR(observed_order(errors), 2, 0.05) << x;
+      const std::string name = (pull == Pull::kMinimal ? "minimal_" : "start_") + std::to_string(static_cast<int>(x));
+      RecordProperty(name + "_error", measured(errors.back()));
+      RecordProperty(name + "_order", measured(observed_order(errors)));
     }
   }
 }
@@ -238,6 +243,7 @@ TEST(RelaxedTriangle, InFreeFlightKeepsItsMomenta) {
   }
   EXPECT_GT(losses.back(), 1e-4);
   EXPECT_NEAR(observed_order(losses), 1, 0.05);
+  RecordProperty("loss_order", measured(observed_order(losses)));
 }
 
 TEST(VerletRelaxation, OfAFreeParticleIsTheParabola) {
