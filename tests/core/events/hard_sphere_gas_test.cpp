@@ -18,24 +18,10 @@ using gas::BruteForceGas;
 using gas::lattice_gas;
 using gas::Scene;
 
-// How far may two codes be apart? Collisions amplify every difference, by a factor that depends on the gas: so a second
-// slow gas runs beside the first, disturbed by 1e-13 diameters, some hundred roundings. Whatever becomes of that is
-// far more than what rounding alone makes, and still far less than what a wrong collision would.
-constexpr double kDisturbance = 1e-13;
-constexpr double kClockRounding = 1e-14;  // of times of some seconds, before any collision has amplified anything
-
-Scene disturbed(Scene scene) {
-  gas::Normal random(99);
-  for (Vec3& p : scene.positions) {
-    for (double& x : p) x += kDisturbance * (random.uniform() < 0.5 ? -1 : 1);
-  }
-  return scene;
-}
-
 void expect_same_collisions(const Scene& scene, int collisions) {
   HardSphereGas fast(scene.positions, scene.velocities, scene.diameter, scene.box);
-  BruteForceGas slow(scene), shadow(disturbed(scene));
-  double allowed = kClockRounding;
+  BruteForceGas slow(scene), shadow(gas::disturbed(scene));
+  double allowed = gas::kClockRounding;
   for (int k = 0; k < collisions; ++k) {
     const HardSphereCollision expected = slow.collide_next(), got = fast.collide_next();
     allowed = std::max(allowed, std::abs(shadow.collide_next().time - expected.time));
@@ -54,7 +40,7 @@ void expect_same_collisions(const Scene& scene, int collisions) {
   }
   EXPECT_LT(apart, shadow_apart);
   EXPECT_LT(turned, shadow_turned);
-  testing::Test::RecordProperty("apart", std::to_string(apart / kDisturbance) + "e-13");
+  testing::Test::RecordProperty("apart", std::to_string(apart / gas::kDisturbance) + "e-13");
 }
 
 TEST(HardSphereGas, HasTheCollisionsOfABruteForceSearchInAFluid) {

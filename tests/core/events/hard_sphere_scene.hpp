@@ -60,6 +60,21 @@ inline Scene lattice_gas(int nx, int ny, int nz, double density, std::uint64_t s
   return scene;
 }
 
+// How far may two codes be apart? Collisions amplify every difference, by a factor that depends on the gas: so a second
+// gas of the same code runs beside the first, disturbed by 1e-13 diameters, some hundred roundings. Whatever becomes of
+// that is far more than what rounding alone makes, and still far less than what a wrong collision would.
+inline constexpr double kDisturbance = 1e-13;
+inline constexpr double kClockRounding =
+    1e-14;  // of times of some seconds, before any collision has amplified anything
+
+inline Scene disturbed(Scene scene) {
+  Normal random(99);
+  for (Vec3& p : scene.positions) {
+    for (double& x : p) x += kDisturbance * (random.uniform() < 0.5 ? -1 : 1);
+  }
+  return scene;
+}
+
 // The simple motion simulator of course slide 24 as it stands there: all pairs, the earliest time, all spheres moved.
 class BruteForceGas {
  public:
