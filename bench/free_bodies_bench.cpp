@@ -8,6 +8,10 @@
 
 #include <random>
 
+#ifdef PLUMBLINE_BENCH_ODE
+#include <ode/ode.h>
+#endif
+
 #include "plumbline/core/invariant.hpp"
 #include "plumbline/core/kinetics/free_bodies.hpp"
 #include "plumbline/core/kinetics/simulator.hpp"
@@ -66,6 +70,40 @@ void ReadableSimulator(benchmark::State& state) {
   for (auto _ : state) simulator.step(kStep);
   report(state, scenario, {simulator.states().begin(), simulator.states().end()}, 1);
 }
+
+#ifdef PLUMBLINE_BENCH_ODE
+void OdeQuickStep(benchmark::State& state) {
+  const Scenario scenario = swarm(static_cast<std::size_t>(state.range(0)));
+  dInitODE2(0);
+  const dWorldID world = dWorldCreate();
+  dWorldSetGravity(world, scenario.gravity.x(), scenario.gravity.y(), scenario.gravity.z());
+  std::vector<dBodyID> bodies;
+  for (const Body& body : scenario.bodies) {
+    const dBodyID id = dBodyCreate(world);
+    dMass mass;
+    dMassSetParameters(&mass, body.mass, 0, 0, 0, body.inertia.x(), body.inertia.y(), body.inertia.z(), 0, 0, 0);
+    dBodySetMass(id, &mass);
+    const BodyState& s = body.initial;
+    const dQuaternion q = {s.q_WB.w(), s.q_WB.x(), s.q_WB.y(), s.q_WB.z()};
+    dBodySetPosition(id, s.p_WB.x(), s.p_WB.y(), s.p_WB.z());
+    dBodySetQuaternion(id, q);
+    dBodySetLinearVel(id, s.v_WB.x(), s.v_WB.y(), s.v_WB.z());
+    dBodySetAngularVel(id, s.w_WB.x(), s.w_WB.y(), s.w_WB.z());
+    bodies.push_back(id);
+  }
+  for (auto _ : state) dWorldQuickStep(world, kStep);
+  std::vector<BodyState> end(bodies.size());
+  for (std::size_t i = 0; i < end.size(); ++i) {
+    const dReal *q = dBodyGetQuaternion(bodies[i]), *w = dBodyGetAngularVel(bodies[i]);
+    end[i].q_WB = Quat(q[0], q[1], q[2], q[3]);
+    end[i].w_WB = Vec3(w[0], w[1], w[2]);
+  }
+  report(state, scenario, end, 1);
+  dWorldDestroy(world);
+  dCloseODE();
+}
+BENCHMARK(OdeQuickStep)->RangeMultiplier(10)->Range(1000, 100000)->Unit(benchmark::kMicrosecond);
+#endif
 
 BENCHMARK(FreeBodiesOneStep)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);
 BENCHMARK(FreeBodies100Steps)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMicrosecond);

@@ -1,5 +1,5 @@
 # The reference solver; its peer Boost.odeint is headers only (libboost1.81-dev).
-plumbline_add_bench(reference_solver SOURCES reference_solver_bench.cpp LIBRARIES)
+plumbline_add_bench(reference_solver SOURCES reference_solver_bench.cpp SHORT Pendulum)
 target_include_directories(bench_reference_solver PRIVATE ${CMAKE_CURRENT_LIST_DIR}/../tests/core/integration)
 find_package(Boost 1.74 QUIET)
 if(Boost_FOUND)

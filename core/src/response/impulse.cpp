@@ -80,13 +80,6 @@ void sweep(std::span<const ImpactPoint> points, std::span<const Inertness> inert
   }
 }
 
-// Sweeps alone need about n^2 times as many for a stack of n bodies, since each hands a load on by one body.
-bool chained(std::span<const ImpactPoint> points, std::span<const Inertness> inertness) {
-  return points.size() > 1 && std::any_of(points.begin(), points.end(), [&](const ImpactPoint& p) {
-           return inertness[p.contact.body_a].inverse_mass > 0 && inertness[p.contact.body_b].inverse_mass > 0;
-         });
-}
-
 // Solves for the points that push, and sweeps once; again while that tells that other points push, grip or slide. Kept
 // once a sweep has less to change than the last one before; whether it came to that.
 bool leap(std::span<const ImpactPoint> points, std::span<const Inertness> inertness, std::span<const BodyState> start,
@@ -125,11 +118,10 @@ ImpulseReport apply_impulses(std::span<const ImpactPoint> points, std::span<cons
   search.states.assign(states.begin(), states.end());
   for (const ImpactPoint& p : points) search.impulses.push_back(prepared(p.contact, inertness, states));
 
-  const bool may_leap = leaps == Leaps::kAlways || (leaps == Leaps::kForChains && chained(points, inertness));
   int pause = kSweepsPerLeap, next_leap = pause;
   while (!report.converged && report.sweeps < kMaxSweeps) {
     ++report.sweeps;
-    if (may_leap && report.sweeps == next_leap) {
+    if (leaps == Leaps::kAllowed && report.sweeps == next_leap) {
       if (!leap(points, inertness, states, search)) {
         sweep(points, inertness, search);
         pause *= 2;

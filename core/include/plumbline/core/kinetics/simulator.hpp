@@ -24,9 +24,9 @@ struct SimulatorOptions {
   // Bodies closer than this fraction of their size touch. It must lie above the rounding of positions and of
   // kImpactTolerance, and far below any gap that matters.
   double contact_tolerance = 1e-10;
-  // Where the search for impulses solves equations at once (impulse.hpp). kAlways finds the friction of a single body
-  // to rounding also next to the angle of friction, where sweeps alone let it creep.
-  Leaps leaps = Leaps::kForChains;
+  // Whether the search for impulses may solve for many points at once (impulse.hpp). Sweeps alone let a box creep next
+  // to the angle of friction, and stacks sag.
+  Leaps leaps = Leaps::kAllowed;
 };
 
 // What a scenario may need for the simulator to run it.

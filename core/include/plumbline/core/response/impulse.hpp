@@ -33,11 +33,10 @@ struct ImpulseReport {
   bool converged = false;
 };
 
-// When the search leaps, see below.
+// Whether the search may leap, see below.
 enum class Leaps {
-  kForChains,  // where a moving body presses on a moving body
-  kAlways,
-  kNever,  // sweeps alone: what the other two are measured against
+  kAllowed,
+  kNever,  // sweeps alone: what leaps are measured against
 };
 
 // Changes the velocities in `states` by the impulses J = J_n n + J_t that satisfy, at all points at once:
@@ -58,6 +57,6 @@ enum class Leaps {
 // change. A stack of ten settles after 16 sweeps, which 1000 do not do alone. (M. Silcowitz, S. Niebe, K. Erleben,
 // Projected Gauss-Seidel subspace minimization method for interactive rigid body dynamics, GRAPP 2010.)
 ImpulseReport apply_impulses(std::span<const ImpactPoint> points, std::span<const Inertness> inertness,
-                             std::span<BodyState> states, Leaps leaps = Leaps::kForChains);
+                             std::span<BodyState> states, Leaps leaps = Leaps::kAllowed);
 
 }  // namespace plumbline
