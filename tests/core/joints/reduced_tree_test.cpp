@@ -1,0 +1,162 @@
+// Reduced coordinates against closed forms, published numbers and their own independent definitions.
+#include "plumbline/core/joints/reduced_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <numbers>
+
+#include "jointed_scenes.hpp"
+#include "plumbline/core/exact/planar_pendulum.hpp"
+#include "plumbline/core/integration/dormand_prince.hpp"
+
+namespace plumbline {
+namespace {
+
+using namespace jointed;
+using Vector = ReducedTree::Vector;
+
+Vector vector_of(std::initializer_list<double> numbers) {
+  Vector v(static_cast<Eigen::Index>(numbers.size()));
+  Eigen::Index k = 0;
+  for (const double x : numbers) v[k++] = x;
+  return v;
+}
+
+Vector random_vector(Random& random, Eigen::Index n, double size) {
+  Vector v(n);
+  for (Eigen::Index k = 0; k < n; ++k) v[k] = random.in(-size, size);
+  return v;
+}
+
+// (q, q') at time t.
+Vector at(const ReducedTree& tree, const Vector& y0, double t) {
+  DormandPrince<Vector> solver({1e-15, 1e-15});
+  solver.start(0, y0);
+  solver.advance_to(tree, t);
+  return solver.state();
+}
+
+TEST(ReducedTree, SwingsAsTheExactPendulumOverTenSeconds) {
+  const ReducedTree tree(point_chain(1));
+  const PlanarPendulum exact(std::sqrt(9.81), {-std::numbers::pi / 2, 0});
+  EXPECT_NEAR(exact.period(), 2.367841947576, 5e-13);  // published with 13 digits
+  double largest = 0;
+  for (const double t : {1.0, 5.0, 10.0}) {
+    const Vector y = at(tree, vector_of({-std::numbers::pi / 2, 0}), t);
+    largest = std::max(largest, std::abs(y[0] - exact.at(t).angle));
+    EXPECT_NEAR(y[0], exact.at(t).angle, 1e-12);  // asked of a reference
+  }
+  RecordProperty("error_1e-18", std::to_string(largest * 1e18));
+  // IFToMM benchmark A01, eight digits.
+  const BodyState bob = tree.states(vector_of({exact.at(1).angle}), vector_of({0}))[0];
+  EXPECT_NEAR(bob.p_WB.x(), 0.98629175, 6e-9);
+  EXPECT_NEAR(bob.p_WB.z(), -0.16501086, 6e-9);
+}
+
+TEST(ReducedTree, SwingsAsTheDoublePendulumToFourteenDigits) {
+  const double right = std::numbers::pi / 2;
+  for (const ArticulatedBody& body : {point_chain(2), equimomental_double_pendulum()}) {
+    const Vector y = at(ReducedTree(body), vector_of({right, 0, 0, 0}), 1);
+    // Angles from the vertical after 1 s from rest, from an extrapolation in 30 digits; the hinges know relative ones.
+    // A disturbance grows by less than 50 in that second.
+    EXPECT_NEAR(y[0], -0.6250876998063906, 2e-13);
+    EXPECT_NEAR(y[0] + y[1], -1.034585085680012, 2e-13);
+    EXPECT_NEAR(y[2], -3.922279572887977, 1e-12);
+    EXPECT_NEAR(y[2] + y[3], -1.303099248696331, 1e-12);
+  }
+}
+
+double laguerre(int n, double x) {
+  double previous = 1, value = 1 - x;
+  if (n == 0) return previous;
+  for (int k = 1; k < n; ++k) {
+    const double next = ((2 * k + 1 - x) * value - k * previous) / (k + 1);
+    previous = value;
+    value = next;
+  }
+  return value;
+}
+
+// Small swings of n point masses: det(K - w^2 M) vanishes where Laguerre's polynomial L_n(w^2 l/g) does; as polynomials
+// of the same degree with the same roots, they are proportional.
+TEST(ReducedTree, HasTheFrequenciesOfTheHangingChain) {
+  for (int n = 1; n <= 6; ++n) {
+    const ReducedTree tree(point_chain(static_cast<std::size_t>(n)));
+    const Vector zero = Vector::Zero(n);
+    const Eigen::MatrixXd M = tree.mass_matrix(zero);
+    Eigen::MatrixXd K(n, n);
+    const double h = 1e-3;
+    for (int j = 0; j < n; ++j) {
+      const auto c = [&](double x) { return tree.inverse_dynamics(x * Vector::Unit(n, j), zero, zero); };
+      K.col(j) = (8 * (c(h) - c(-h)) - (c(2 * h) - c(-2 * h))) / (12 * h);
+    }
+    for (const double x : {0.3, 1.7, 4.0, 9.0}) {
+      // Differences leave h^4/30 + eps/h = 3e-13 in K; det and L_n multiply that by their condition, below 1e3.
+      const double ratio = (K - x * 9.81 * M).determinant() / K.determinant();
+      EXPECT_NEAR(ratio, laguerre(n, x), 1e-9 * (1 + std::abs(ratio))) << n << " " << x;
+    }
+  }
+  for (const double x : {0.41577456, 2.29428036, 6.28994508}) EXPECT_NEAR(laguerre(3, x), 0, 5e-8);  // as published
+}
+
+TEST(ReducedTree, HasTheMassMatrixThatItsInverseDynamicsImplies) {
+  Random random(11);
+  for (int n = 0; n < 50; ++n) {
+    const ReducedTree tree(random_tree(random, 1 + random.below(8)));
+    const Eigen::Index d = tree.freedoms();
+    const Vector q = random_vector(random, d, 2), qd = random_vector(random, d, 2);
+    const Eigen::MatrixXd M = tree.mass_matrix(q);
+    const Vector c = tree.inverse_dynamics(q, qd, Vector::Zero(d));
+    // Composite bodies against Newton-Euler: sums over bodies of up to 8 with arms up to 10 m.
+    const double scale = 100 * kEps * (M.norm() + c.norm());
+    for (Eigen::Index j = 0; j < d; ++j) {
+      EXPECT_LT((tree.inverse_dynamics(q, qd, Vector::Unit(d, j)) - c - M.col(j)).norm(), scale);
+    }
+    // Kinetic energy, by the velocities of all bodies, is q'.M q'/2.
+    const double kinetic = tree.energy(q, qd) - tree.energy(q, Vector::Zero(d));
+    EXPECT_NEAR(kinetic, qd.dot(M * qd) / 2, 100 * kEps * (std::abs(tree.energy(q, qd)) + 100 * kinetic));
+    const Vector tau = random_vector(random, d, 5);
+    const Vector qdd = tree.accelerations(q, qd, tau);
+    EXPECT_LT((tree.inverse_dynamics(q, qd, qdd) - tau).norm(), 100 * kEps * (M.norm() * qdd.norm() + c.norm() + 10));
+  }
+}
+
+TEST(ReducedTree, KeepsTheEnergyOfRandomTrees) {
+  Random random(12);
+  double largest = 0;
+  for (int n = 0; n < 10; ++n) {
+    const ReducedTree tree(random_tree(random, 4));
+    const Eigen::Index d = tree.freedoms();
+    Vector y(2 * d);
+    y << random_vector(random, d, 1), random_vector(random, d, 1);
+    const Vector end = at(tree, y, 1);
+    const double before = tree.energy(y.head(d), y.tail(d)), after = tree.energy(end.head(d), end.tail(d));
+    const double scale = std::abs(before) + 100;  // [J]: what falls and rises within
+    EXPECT_NEAR(after, before, 1e-12 * scale);
+    largest = std::max(largest, std::abs(after - before) / scale);
+  }
+  RecordProperty("relative_1e-18", std::to_string(largest * 1e18));
+}
+
+TEST(ReducedTree, RefusesWhatIsNoTree) {
+  const ArticulatedBody good = point_chain(3);
+  const auto refused = [&](auto change) {
+    ArticulatedBody bad = good;
+    change(bad);
+    EXPECT_THROW(ReducedTree{bad}, std::invalid_argument);
+  };
+  refused([](ArticulatedBody& bad) { bad.joints.push_back(bad.joints[0]); });  // a loop
+  refused([](ArticulatedBody& bad) { std::swap(bad.joints[0], bad.joints[1]); });
+  refused([](ArticulatedBody& bad) { bad.joints[1].a = 2; });
+  refused([](ArticulatedBody& bad) { bad.joints[1].kind = JointKind::kBall; });
+  refused([](ArticulatedBody& bad) { bad.bodies[1].mass = -1; });
+  const ReducedTree tree(good);
+  EXPECT_THROW(tree.mass_matrix(Vector::Zero(2)), std::invalid_argument);
+  ArticulatedBody weightless = point_chain(1);
+  weightless.bodies[0].mass = 0;
+  EXPECT_THROW(ReducedTree(weightless).accelerations(vector_of({0}), vector_of({0})), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace plumbline
