@@ -116,7 +116,7 @@ struct MovingPair {
     const Quat E = A.q_WB * joint.on_a.attitude;
     const bool slides = joint.kind == JointKind::kSlider;
     const Vec3 axis = joint.kind == JointKind::kBall ? Vec3::UnitX() : Vec3::UnitZ();
-    const Quat turn = slides ? Quat::Identity() : rotation_by(x * axis);
+    const Quat turn = slides ? Quat(Quat::Identity()) : rotation_by(x * axis);
     BodyState& B = states[joint.b];
     B.q_WB = (E * turn * joint.on_b.attitude.conjugate()).normalized();
     B.w_WB = A.w_WB + (slides ? Vec3(Vec3::Zero()) : Vec3(0.7 * (E * axis)));
