@@ -1,6 +1,6 @@
 // Time-stepped elastic gas: time per body and step against Bullet and ODE (spheres), Box2D and Chipmunk (discs).
 //
-//   bench_elastic_gas                              everything; the ratios come last
+//   bench_elastic_gas                              everything (some minutes); the ratios come last
 //   bench_elastic_gas --benchmark_filter=planar
 //
 // One run is 180 steps of 1/60 s from the same start: spheres of radius 0.5 on a jittered lattice of edge 2, each
