@@ -115,6 +115,7 @@ std::vector<double> resolve_range_impacts(const ArticulatedBody& body, std::span
   for (std::size_t k = 0; k < limits.size(); ++k) {
     if (!(room(body, limits[k], states) > touch)) reached.push_back(k);
   }
+  if (reached.empty()) return impulses;
   const std::vector<JointRow> joints = joint_rows(body, states);
   const Eigen::Index n = static_cast<Eigen::Index>(reached.size());
   std::vector<std::vector<Twist>> answers;
