@@ -10,8 +10,8 @@
 namespace plumbline {
 namespace {
 
-constexpr double kTouch = 1e-9;        // [rad] or [m]: what an integrator's drift may do to a coordinate that rests
-constexpr double kTimeOfRoom = 1e-12;  // [rad] or [m]: how closely a limit is met
+constexpr double kTouch = 1e-9;  // [rad] or [m]: what an integrator's drift may do to a coordinate that rests
+constexpr double kMeet = 1e-12;  // [rad] or [m]: how closely a limit is met
 constexpr int kMostImpacts = 100;
 
 // What the unit impulse of a limit does to all bodies, joints included.
@@ -161,7 +161,7 @@ int advance_within_ranges(const ArticulatedBody& body, Stepper& stepper, double 
       return moved;
     };
     std::vector<BodyState> moved = after(end - t);
-    if (!(least_room(body, held, moved) < -kTimeOfRoom)) {
+    if (!(least_room(body, held, moved) < -kMeet)) {
       states = moved;
       return impacts;
     }
@@ -181,13 +181,13 @@ int advance_within_ranges(const ArticulatedBody& body, Stepper& stepper, double 
       } else {
         late = h;
         room_late = room_now;
-        if (room_now > -kTimeOfRoom) {
+        if (room_now > -kMeet) {
           early = h;
           inside = moved;
           break;
         }
       }
-      if (room_early > 0 && room_early < kTimeOfRoom && late - early < 1e-9) break;
+      if (room_early > 0 && room_early < kMeet && late - early < 1e-9) break;
     }
     states = inside;
     t += early;

@@ -138,9 +138,9 @@ TEST(JointReaction, OfADoorOnTwoHingesSumsToWhatOneHingeWouldCarry) {
   EXPECT_LT(solved.accelerations[0].angular.norm(), scale);
 }
 
-// Rods at rest in a straight row on a line, free of gravity, the first one struck: by hand for two rods of mass m,
-// length l joined end to end, the outer end struck at right angles by P: v1 = 7/2 P/m at that end... so the classical
-// result is v_centre1 = 5/4 P/m, v_centre2 = -1/4 P/m.
+// Two rods in a line, hinged end to end and free; the outer end of one is struck at right angles by P. With the hinge's
+// own impulse R, v1 = (P - R)/m, w1 = -6 (P + R)/(m l), v2 = R/m, w2 = -6 R/(m l); that the hinge stays together,
+// v1 + w1 l/2 = v2 - w2 l/2, gives R = -P/4: the far rod starts backwards.
 TEST(JointImpulse, TravelsThroughTheHingeOfTwoRods) {
   ArticulatedBody rods;
   const double m = 2, l = 1.2, I = m * l * l / 12, P = 3;
