@@ -131,8 +131,8 @@ ImpulseReport apply_impulses(std::span<const ImpactPoint> points, std::span<cons
       sweep(points, inertness, search);
     }
     // Grazing impulses are smaller than what the rounding of large velocities is worth. That they will not settle any
-    // further shows when the sweeps are over.
-    const bool at_last = may_leap || report.sweeps == kMaxSweeps;
+    // further shows when leaps are due, or when the sweeps are over.
+    const bool at_last = report.sweeps >= (leaps == Leaps::kAllowed ? kSweepsPerLeap : kMaxSweeps);
     const double settled = kRelativeChange * search.largest;
     report.converged = search.change <= (at_last ? std::max(settled, search.rounding) : settled);
     if (std::isnan(search.change)) break;

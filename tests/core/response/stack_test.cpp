@@ -122,7 +122,7 @@ TEST(Stack, BearsAMassRatioOfAThousand) {
 TEST(Stack, CarriesASphere) {
   const Scenario s =
       on_the_ground({cube(2, Vec3(0, 0, 0.5)), ball("ball", 0.3, 1, Vec3(0.1, -0.2, 1.3), Vec3::Zero())}, 0.4, 0.5, 10);
-  for (const Scheme& scheme : candidate_schemes()) {
+  for (const Scheme& scheme : candidate_schemes(s)) {
     const Trajectory path = simulate(s, scheme, 1.0 / 60);
     EXPECT_LT(largest_drift(path), 1e-12) << name(scheme);
     const auto load = loads(s, path.states().subspan((path.samples() - 1) * 3, 3));
