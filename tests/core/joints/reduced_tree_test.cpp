@@ -34,8 +34,8 @@ Vector random_vector(Random& random, Eigen::Index n, double size) {
 }
 
 // (q, q') at time t.
-Vector at(const ReducedTree& tree, const Vector& y0, double t) {
-  DormandPrince<Vector> solver({1e-15, 1e-15});
+Vector at(const ReducedTree& tree, const Vector& y0, double t, double tolerance = 1e-15) {
+  DormandPrince<Vector> solver({tolerance, tolerance});
   solver.start(0, y0);
   solver.advance_to(tree, t);
   return solver.state();
@@ -168,7 +168,8 @@ TEST(ReducedTree, FollowsThePathOfMaximalCoordinates) {
   RecordProperty("path_1e-18", std::to_string(largest * 1e18));
 }
 
-// About z, then x, then y, with two bodies without mass between: the heavy top of constrained_motion_test.cpp.
+// About z, then x, then y, with two bodies without mass between: the heavy top of constrained_motion_test.cpp, pushed
+// differently. Pushed as there, L_z = -L_axis, it swings through the hanging position: a gimbal lock.
 TEST(ReducedTree, MakesABallJointOfThreeHinges) {
   ArticulatedBody top;
   top.gravity_W = Vec3(0, 0, -9.81);
@@ -181,10 +182,10 @@ TEST(ReducedTree, MakesABallJointOfThreeHinges) {
   top.bodies[2] = {15, Vec3(0.234375, 0.46875, 0.234375).asDiagonal()};
   top.joints[2].on_b.anchor = -Vec3::UnitY();
   const ReducedTree tree(top);
-  const Vector start = vector_of({0, 0, 0, -4.61538, 0, 150});
+  const Vector start = vector_of({0, 0, 0, 2, 0, 150});
   const BodyState initial = tree.states(start.head(3), start.tail(3))[2];
-  EXPECT_LT((initial.w_WB - Vec3(0, 150, -4.61538)).norm(), 1e-13);
-  const Vector end = at(tree, start, 1);
+  EXPECT_LT((initial.w_WB - Vec3(0, 150, 2)).norm(), 1e-13);
+  const Vector end = at(tree, start, 1, 1e-13);  // products of w^2 = 22500 and 15 kg round to 1e-12
   const BodyState expected = LagrangeTop({15, Vec3::UnitY(), 0.46875, 0.234375, 9.81}, initial).at(1);
   const BodyState actual = tree.states(end.head(3), end.tail(3))[2];
   EXPECT_LT(geodesic_angle(actual.q_WB, expected.q_WB), 1e-10);  // asked of a reference
