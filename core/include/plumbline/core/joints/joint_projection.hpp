@@ -20,7 +20,7 @@ struct Projection {
   int sweeps = 0;    // Newton steps taken
 };
 
-// Newton's method, quadratic near the joints: drift of 1e-3 is gone after three sweeps. Stops once the error is below
+// Newton's method, quadratic near the joints: drift of 1e-3 is gone after four sweeps. Stops once the error is below
 // `tolerance`, or after max_sweeps; the caller sees the error. Far from any solution it may fail, as Newton does.
 Projection project_positions(const ArticulatedBody& body, std::span<BodyState> states, double tolerance = 1e-13,
                              int max_sweeps = 20);
