@@ -164,5 +164,23 @@ TEST(JointProjection, TakesTheLeastEnergyAndNoMomentumFromVelocities) {
   EXPECT_NEAR(mechanical_energy(doll.body, doll.states), after, 1000 * kEps * after);
 }
 
+TEST(JointProjection, PutsACoordinateBeyondItsRangeOntoTheLimit) {
+  RigidDoll doll = make_rigid_doll();
+  const Joint& elbow = doll.body.joints[kLeftForearm - 1];
+  BodyState& forearm = doll.states[kLeftForearm];
+  forearm.q_WB = rotation_by(Vec3(0, 0.07, 0));  // 0.02 rad more than an elbow can overstretch
+  EXPECT_NEAR(coordinate_row(elbow, doll.states).error, 0.07, 1e-15);
+  EXPECT_LE(project_positions(doll.body, doll.states).error, 1e-13);
+  EXPECT_NEAR(coordinate_row(elbow, doll.states).error, elbow.range->high, 1e-13);
+}
+
+TEST(JointProjection, SaysWhenTheStatesAreNotNumbers) {
+  RigidDoll doll = make_rigid_doll();
+  doll.states[3].p_WB.x() = std::nan("");
+  EXPECT_TRUE(std::isnan(project_positions(doll.body, doll.states).error));
+  EXPECT_TRUE(std::isnan(constrained_accelerations(doll.body, doll.states).accelerations[0].linear.x()));
+  EXPECT_TRUE(std::isnan(joint_error(doll.body, doll.states)));
+}
+
 }  // namespace
 }  // namespace plumbline

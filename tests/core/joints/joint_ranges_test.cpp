@@ -103,6 +103,16 @@ TEST(JointRange, PassesTheBlowOnWhereTheLimitIsReached) {
   }
 }
 
+TEST(JointRange, RefusesWhatMakesNoSense) {
+  RigidDoll doll = make_rigid_doll();
+  RungeKutta4 stepper;
+  EXPECT_THROW(resolve_range_impacts(doll.body, doll.states, {.restitution = 1.5}), std::invalid_argument);
+  EXPECT_THROW(resolve_range_impacts(doll.body, doll.states, {.restitution = std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(advance_within_ranges(doll.body, stepper, 0, -0.1, doll.states), std::invalid_argument);
+  EXPECT_THROW(make_rigid_doll(0), std::invalid_argument);
+  EXPECT_EQ(range_limits(doll.body).size(), 13u);
+}
+
 // Struck on a hand and a foot in free space, the doll tumbles, elbows, knees and neck run into their limits, and what
 // is inside can change neither momentum. Linear momentum is a sum that every step and impulse keeps to rounding; the
 // angular one is kept by the exact motion, so it is off by no more than the steps allow: 13 numbers of 10 bodies, each

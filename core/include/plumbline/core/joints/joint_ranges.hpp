@@ -45,9 +45,9 @@ std::vector<double> resolve_range_impacts(const ArticulatedBody& body, std::span
 
 // One step of dt > 0 [s] that stops at each limit on its way. States must satisfy joints and ranges. Moments of impact
 // are found on the stepper's own path, until the room left is below 1e-12; a coordinate that leaves and re-enters its
-// range within one step is not seen. Only for steppers that need no previous step (not position Verlet), since steps are
-// tried and cut. Returns the number of impacts. Throws std::runtime_error after 100 in one step,
-// and std::invalid_argument as Stepper does.
+// range within one step is not seen. Only for steppers that need no previous step (not position Verlet), since steps
+// are tried and cut. Returns the number of impacts. Throws std::runtime_error after 100 in one step, and
+// std::invalid_argument as Stepper does.
 int advance_within_ranges(const ArticulatedBody& body, Stepper& stepper, double t, double dt,
                           std::vector<BodyState>& states, const RangeRule& rule = {}, const WrenchField& wrenches = {});
 
