@@ -70,7 +70,7 @@ TEST(ConstrainedMotion, FollowsTheDoublePendulumToItsPublishedState) {
 }
 
 TEST(ConstrainedMotion, SpinsTheHeavyTopOnABallJointAsTheExactOne) {
-  // The heavy top of Terze, Mueller and Zlatar, Multibody Syst. Dyn. 37 (2016) 275, section 4.
+  // The heavy top of Terze, Mueller and Zlatar, Multibody System Dynamics 38 (2016) 201.
   const TopBody top{15, Vec3::UnitY(), 0.46875, 0.234375, 9.81};
   const Vec3 w(0, 150, -4.61538);
   const BodyState start{Vec3::UnitY(), Quat::Identity(), w.cross(Vec3::UnitY()), w};

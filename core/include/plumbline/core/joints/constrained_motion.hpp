@@ -5,7 +5,7 @@
 //   J a = -Jdot v               what the joints demand of accelerations
 //
 // Solved by least_change.hpp: a = a_free + the least change that makes J a = -Jdot v. Loops and redundant joints need
-// nothing special. Source: Shabana, Dynamics of Multibody Systems, 4th ed. 2013, section 3.6 (augmented formulation).
+// nothing special. Source: Shabana, Dynamics of Multibody Systems, 4th ed. 2013, chapter 3 (augmented formulation).
 //
 // The joints are held at the level of accelerations only, so that what an integrator does wrong stays: the error of a
 // joint grows like that of the positions. `joint_projection.hpp` puts it right, as a choice of the caller.

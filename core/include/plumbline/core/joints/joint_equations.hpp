@@ -9,9 +9,10 @@
 //
 //   dC/dt = force . (v_B - v_A) + torque_a . w_A + torque_b . w_B
 //
-// Action equals reaction because only v_B - v_A enters, and the torques balance about every point because C does not
-// care where the pair is and how it is turned: force x lever + torque_a + torque_b = 0, which is what keeps the angular
-// momentum. Source: Shabana, Dynamics of Multibody Systems, section 3; Baraff, SIGGRAPH 1996.
+// Action equals reaction because only v_B - v_A enters. Where the anchors meet the torques balance about every point,
+// lever x force + torque_a + torque_b = 0, which keeps the angular momentum; with a gap of a ball's, hinge's or fixed
+// joint's anchors the pair of forces turns the whole by force times gap. Source: Shabana, Dynamics of Multibody
+// Systems, 4th ed. 2013, chapter 3; Baraff, Linear-time dynamics using Lagrange multipliers, SIGGRAPH 1996.
 //
 // Range of validity: C is meant for small errors. Axes that point in opposite directions also have C = 0.
 #pragma once
