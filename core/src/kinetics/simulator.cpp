@@ -67,7 +67,7 @@ void Simulator::step(double dt) {
   dt_ = dt / scheme_.substeps;
   for (int k = 0; k < scheme_.substeps; ++k) {
     free_ = free_accelerations();
-    if (scheme_.impact == ImpactRule::kExactTime) {
+    if (scheme_.impact == ImpactRule::kExactTime || !material_) {  // where nothing touches, all rules agree
       step_exact_time(dt_);
     } else {
       step_from_start(dt_);

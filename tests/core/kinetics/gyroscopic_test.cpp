@@ -121,6 +121,12 @@ TEST(GyroscopicTerm, ExactFreeRotationDoesNotDependOnTheStep) {
   EXPECT_LT((a.w_WB - b.w_WB).norm(), 1.5e-8);
 }
 
+TEST(GyroscopicTerm, ExactFreeRotationDoesNotAskForTheImpactRule) {
+  const Trajectory a = simulate(plank(), {kSemiImplicitEuler, ImpactRule::kExactTime, kExact}, 0.1);
+  const Trajectory b = simulate(plank(), {kSemiImplicitEuler, ImpactRule::kStepStart, kExact}, 0.1);
+  EXPECT_EQ(a.at(100, 0).q_WB.coeffs(), b.at(100, 0).q_WB.coeffs());
+}
+
 // The published attitude of the same box after 1 s is of scenario R3; here the flip interval is enough: w_y changes
 // sign at 1.165960046 s, which is a zero of the Jacobi function sn.
 TEST(GyroscopicTerm, ExactFreeRotationFlipsWhenTheEllipticFunctionSays) {
