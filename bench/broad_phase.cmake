@@ -5,8 +5,8 @@ if(BULLET_BROAD_PHASE_FOUND)
     SOURCES broad_phase_bench.cpp bullet_broad_phase.cpp
     LIBRARIES PkgConfig::BULLET_BROAD_PHASE
     DEFINITIONS PLUMBLINE_HAVE_BULLET
-    SHORT "/1000")
+    SHORT "^uniform/.*/1000/")
 else()
   message(STATUS "bench_broad_phase: without its peer Bullet (Debian package libbullet-dev)")
-  plumbline_add_bench(broad_phase SOURCES broad_phase_bench.cpp SHORT "/1000")
+  plumbline_add_bench(broad_phase SOURCES broad_phase_bench.cpp SHORT "^uniform/.*/1000/")
 endif()
