@@ -17,4 +17,10 @@ Quat rotation_by(const Vec3& phi) {
   return Quat(std::cos(0.5 * angle), v.x(), v.y(), v.z());
 }
 
+Mat3 cross_matrix(const Vec3& r) {
+  Mat3 m;
+  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+  return m;
+}
+
 }  // namespace plumbline

@@ -68,5 +68,10 @@ TEST(RotationBy, AddsUpAboutOneAxis) {
   EXPECT_LT(geodesic_angle(rotation_by(0.4 * axis) * rotation_by(0.5 * axis), rotation_by(0.9 * axis)), 16 * kEps);
 }
 
+TEST(CrossMatrix, IsTheCrossProduct) {
+  const Vec3 r(1, -2, 3), v(4, 5, -6);
+  EXPECT_EQ(Vec3(cross_matrix(r) * v), r.cross(v));
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -17,12 +17,6 @@ Vec6 pair(const Vec3& angular, const Vec3& linear) {
   return result;
 }
 
-Mat3 cross_matrix(const Vec3& r) {
-  Mat3 m;
-  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return m;
-}
-
 // V x S: how a motion S that is carried along by V changes.
 Vec6 motion_cross(const Vec6& V, const Vec6& S) {
   const Vec3 w = V.head<3>(), v = V.tail<3>();

@@ -7,12 +7,6 @@
 namespace plumbline {
 namespace {
 
-Mat3 cross_matrix(const Vec3& r) {
-  Mat3 m;
-  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return m;
-}
-
 // q v q^-1. Dividing by |q|^2 matters: a unit quaternion is unit to one rounding only, always the same one, and turning
 // a vector into the body and back at every step would scale it by that much each time.
 Vec3 rotated(const Quat& q, const Vec3& v) {

@@ -10,12 +10,6 @@ namespace {
 // velocity feels. This share of the diagonal shuts them off, and spoils what velocities feel by as little.
 constexpr double kShare = 1e-10;
 
-Mat3 cross_matrix(const Vec3& r) {
-  Mat3 m;
-  m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-  return m;
-}
-
 // Normal first, then two directions across it.
 Mat3 axes_of(const Contact& c) {
   Mat3 axes;

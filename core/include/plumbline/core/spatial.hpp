@@ -23,4 +23,7 @@ double geodesic_angle(const Quat& a, const Quat& b);
 // The rotation exp([phi]x) by the vector phi [rad]. Exact for every length; phi = 0 gives the identity.
 Quat rotation_by(const Vec3& phi);
 
+// The matrix [r]x of the cross product: [r]x v = r x v.
+Mat3 cross_matrix(const Vec3& r);
+
 }  // namespace plumbline
