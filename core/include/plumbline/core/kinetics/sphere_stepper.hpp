@@ -23,6 +23,8 @@
 // together in memory. Cells must hold the largest sphere, so that a few large ones among many small ones make it slow.
 // Green, "Particle simulation using CUDA", NVIDIA (2010), has the grid for graphics processors.
 //
+// Not for piles: nothing pushes overlap out, and under gravity spheres that lie on each other sink into each other.
+//
 // Range of validity: v dt well below the radius for all, or spheres pass through each other unseen; time-stepping
 // conserves energy with e = 1, g = 0, but the instants of impact, and so the trajectories, are of first order in dt.
 #pragma once
