@@ -7,7 +7,7 @@ function(plumbline_add_engine name)
   set(adapter plumbline_adapter_${name})
   add_library(${adapter} STATIC ${ARG_SOURCES})
   add_library(plumbline::adapter_${name} ALIAS ${adapter})
-  target_link_libraries(${adapter} PUBLIC plumbline::core PRIVATE ${ARG_LIBRARIES})
+  target_link_libraries(${adapter} PUBLIC plumbline::core PRIVATE plumbline::adapters ${ARG_LIBRARIES})
   target_compile_definitions(${adapter} PRIVATE ${ARG_DEFINITIONS})
   plumbline_compile_options(${adapter})
 
@@ -26,6 +26,8 @@ function(plumbline_add_engine name)
   endif()
 
   set_property(GLOBAL APPEND PROPERTY PLUMBLINE_ENGINES ${name})
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME engine_folder)
+  set_property(GLOBAL APPEND PROPERTY PLUMBLINE_ENGINE_FOLDERS ${engine_folder})
   message(STATUS "Engine ${name}: worker program ${worker}")
 endfunction()
 

@@ -171,7 +171,7 @@ class Box2dEngine final : public Engine {
 
   const EngineInfo& info() const override { return info_; }
 
-  std::unique_ptr<World> build(const Scenario& scenario, const Settings& settings) const override {
+  std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
     const Knobs knobs(settings);
     const PlanarView view = planar_view(scenario);
     if (view.planarity == Planarity::kSpatial) {

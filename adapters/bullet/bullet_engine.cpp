@@ -213,7 +213,7 @@ class BulletEngine final : public Engine {
 
   const EngineInfo& info() const override { return info_; }
 
-  std::unique_ptr<World> build(const Scenario& scenario, const Settings& settings) const override {
+  std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
     gCalculateCombinedRestitutionCallback = pair_restitution;
     gCalculateCombinedFrictionCallback = pair_friction;
     return std::make_unique<BulletWorld>(scenario, Knobs(settings));

@@ -56,7 +56,7 @@ class KineticsEngine final : public Engine {
     };
   }
   const EngineInfo& info() const override { return info_; }
-  std::unique_ptr<World> build(const Scenario& scenario, const Settings& settings) const override {
+  std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
     return std::make_unique<KineticsWorld>(scenario, scheme_, options_from(settings));
   }
 

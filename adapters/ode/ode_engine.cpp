@@ -265,7 +265,7 @@ class OdeEngine final : public Engine {
 
   const EngineInfo& info() const override { return info_; }
 
-  std::unique_ptr<World> build(const Scenario& scenario, const Settings& settings) const override {
+  std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
     return std::make_unique<OdeWorld>(scenario, Knobs(settings, solver_));
   }
 

@@ -16,6 +16,13 @@ constexpr std::string_view kNames[kFeatureCount] = {
     "contact of a box with a box",
     "restitution",
     "friction",
+    "ball joints",
+    "hinges",
+    "sliders",
+    "fixed joints",
+    "distance joints",
+    "joints that close a loop",
+    "contact besides joints",
 };
 
 bool turns_only_about_y(const Body& body) {
@@ -40,6 +47,61 @@ void insert_contact(FeatureSet& set, const Body& a, const Body& b) {
   }
 }
 
+Feature joint_feature(JointKind kind) {
+  switch (kind) {
+    case JointKind::kBall:
+      return Feature::kBallJoint;
+    case JointKind::kHinge:
+      return Feature::kHinge;
+    case JointKind::kSlider:
+      return Feature::kSlider;
+    case JointKind::kFixed:
+      return Feature::kFixedJoint;
+    case JointKind::kDistance:
+      return Feature::kDistanceJoint;
+  }
+  return Feature::kCount;
+}
+
+// What keeps the joints from being those of a plane mechanism; empty when nothing does.
+std::string out_of_plane(const Scenario& scenario, const Joint& joint) {
+  const auto in_W = [&](std::size_t body, const Vec3& v) {
+    return body == kWorld ? v : Vec3(scenario.bodies[body].initial.q_WB * v);
+  };
+  // Rounding of a direction that was turned to a body's axes and back.
+  constexpr double kRounding = 1e-12;
+  const Vec3 axis_W = in_W(joint.b, joint.on_b.axis());
+  if (joint.kind == JointKind::kHinge && axis_W.cross(Vec3::UnitY()).norm() > kRounding) {
+    return "the axis of the hinge " + joint.name + " is not y";
+  }
+  if (joint.kind == JointKind::kSlider && std::abs(axis_W.y()) > kRounding) {
+    return "the slider " + joint.name + " leaves the plane";
+  }
+  // A force beside the centre of mass, along y, would turn the body out of the plane unless the joint itself prevents
+  // it.
+  const bool beside = std::abs(in_W(joint.b, joint.on_b.anchor).y()) > kRounding ||
+                      (joint.a != kWorld && std::abs(in_W(joint.a, joint.on_a.anchor).y()) > kRounding);
+  if ((joint.kind == JointKind::kBall || joint.kind == JointKind::kDistance) && beside) {
+    return "the joint " + joint.name + " pulls beside the plane of its body";
+  }
+  return "";
+}
+
+// Every joint ties two groups of bodies to one, unless they were one before.
+bool joints_close_a_loop(const Scenario& scenario) {
+  const std::size_t world = scenario.bodies.size();
+  std::vector<std::size_t> group(world + 1);
+  for (std::size_t i = 0; i < group.size(); ++i) group[i] = i;
+  for (const Joint& joint : scenario.joints) {
+    const std::size_t a = group[joint.a == kWorld ? world : joint.a], b = group[joint.b];
+    if (a == b) return true;
+    for (std::size_t& g : group) {
+      if (g == b) g = a;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string_view feature_name(Feature feature) { return kNames[static_cast<std::size_t>(feature)]; }
@@ -48,6 +110,11 @@ FeatureSet FeatureSet::all() {
   FeatureSet set;
   set.bits_.set();
   return set;
+}
+
+FeatureSet FeatureSet::joints() {
+  return {Feature::kBallJoint,  Feature::kHinge,         Feature::kSlider,
+          Feature::kFixedJoint, Feature::kDistanceJoint, Feature::kJointLoop};
 }
 
 FeatureSet FeatureSet::without(const FeatureSet& other) const {
@@ -84,6 +151,9 @@ PlanarView planar_view(const Scenario& scenario) {
     if (scenario.contact && body.initial.p_WB.y() != y0)
       return spatial(body.name + " touches others outside its own x-z plane");
   }
+  for (const Joint& joint : scenario.joints) {
+    if (std::string reason = out_of_plane(scenario, joint); !reason.empty()) return spatial(std::move(reason));
+  }
   for (const ForceLaw& law : scenario.forces) {
     if (law.couples_out_of_plane)
       return spatial("the force on " + scenario.bodies[law.body].name + " couples the plane to motion along y");
@@ -94,6 +164,7 @@ PlanarView planar_view(const Scenario& scenario) {
   }
   if (!leaves_plane) return {Planarity::kPlanar, ""};
   if (scenario.contact) return spatial("bodies that may touch move along y");
+  if (!scenario.joints.empty()) return spatial("bodies that joints hold move along y");
   return {Planarity::kProjection, ""};
 }
 
@@ -107,13 +178,16 @@ FeatureSet needs(const Scenario& scenario) {
   if (scenario.contact) {
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
       for (std::size_t j = i + 1; j < scenario.bodies.size(); ++j) {
-        if (scenario.bodies[i].fixed && scenario.bodies[j].fixed) continue;
+        if ((scenario.bodies[i].fixed && scenario.bodies[j].fixed) || joined(scenario, i, j)) continue;
         insert_contact(set, scenario.bodies[i], scenario.bodies[j]);
       }
     }
     if (scenario.contact->restitution > 0) set.insert(Feature::kRestitution);
     if (scenario.contact->friction > 0) set.insert(Feature::kFriction);
+    if (!scenario.joints.empty()) set.insert(Feature::kJointsAndContact);
   }
+  for (const Joint& joint : scenario.joints) set.insert(joint_feature(joint.kind));
+  if (joints_close_a_loop(scenario)) set.insert(Feature::kJointLoop);
   return set;
 }
 

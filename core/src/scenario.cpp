@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "plumbline/core/joints/joint_equations.hpp"
+
 namespace plumbline {
 
 std::string shortest(double value) {
@@ -35,6 +37,65 @@ std::size_t Scenario::body_index(const std::string& name) const {
     if (bodies[i].name == name) return i;
   }
   throw std::out_of_range("scenario " + id + " has no body '" + name + "'");
+}
+
+bool joined(const Scenario& scenario, std::size_t body, std::size_t other) {
+  return std::any_of(scenario.joints.begin(), scenario.joints.end(), [&](const Joint& joint) {
+    return (joint.a == body && joint.b == other) || (joint.a == other && joint.b == body);
+  });
+}
+
+void require_sound(const Scenario& scenario) {
+  const auto refuse = [](const std::string& what) { throw std::invalid_argument(what); };
+  if (!scenario.gravity.allFinite()) refuse("gravity must be finite");
+  for (const Body& body : scenario.bodies) {
+    const std::string who = "body '" + body.name + "'";
+    require_mass(body);
+    if (!is_finite(body.initial)) refuse(who + ": its initial state must be finite");
+    if (std::abs(body.initial.q_WB.norm() - 1) > 1e-9) refuse(who + ": its attitude must be a unit quaternion");
+    if (body.fixed) continue;
+    if (std::holds_alternative<HalfSpace>(body.shape))
+      refuse(who + " is a half-space, which cannot move; make it fixed");
+    if (!std::isfinite(body.mass)) refuse(who + ": its mass must be finite");
+    if (!(body.inertia.minCoeff() > 0 && body.inertia.allFinite())) {
+      refuse(who + " moves and needs moments of inertia > 0 about all three axes");
+    }
+  }
+  if (scenario.joints.empty()) return;
+  std::vector<BodyState> states;
+  for (const Body& body : scenario.bodies) states.push_back(body.initial);
+  require_valid(articulated_body(scenario));
+  for (const Joint& joint : scenario.joints) {
+    const std::string who = "joint '" + joint.name + "'";
+    for (const std::size_t end : {joint.a, joint.b}) {
+      if (end != kWorld && scenario.bodies[end].fixed) {
+        refuse(who + " leads to '" + scenario.bodies[end].name + "', which is fixed; tie it to the world instead");
+      }
+    }
+    // Typing errors are far larger, and the rounding of any sensible expression far smaller.
+    constexpr double kTolerance = 1e-9;
+    const double length = scenario.scales.length, speed = scenario.scales.velocity();
+    for (const JointRow& row : joint_rows(joint, states)) {
+      if (!(std::abs(row.error) <= kTolerance * std::max(1.0, length))) {
+        refuse(who + " does not hold in the initial positions: it is " + shortest(row.error) + " off");
+      }
+      if (!(std::abs(rate(row, states)) <= kTolerance * std::max(1.0, speed))) {
+        refuse(who + " does not hold in the initial velocities: it would come apart with " +
+               shortest(rate(row, states)) + " a second; correct velocity or angular_velocity of its bodies");
+      }
+    }
+  }
+}
+
+ArticulatedBody articulated_body(const Scenario& scenario) {
+  ArticulatedBody result;
+  for (const Body& body : scenario.bodies) {
+    result.bodies.push_back(body.fixed ? BodyInertia{1, Mat3::Identity()}
+                                       : BodyInertia{body.mass, body.inertia.asDiagonal()});
+  }
+  result.joints = scenario.joints;
+  result.gravity_W = scenario.gravity;
+  return result;
 }
 
 void evaluate_forces(const Scenario& scenario, double t, std::span<const BodyState> states,

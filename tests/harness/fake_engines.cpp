@@ -79,7 +79,7 @@ class FakeEngine : public Engine {
     info_.settings = {{"damping", 0.1, 0.0, "1/s", "not used by fakes: a setting to carry through"}};
   }
   const EngineInfo& info() const override { return info_; }
-  std::unique_ptr<World> build(const Scenario& scenario, const Settings& settings) const override {
+  std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
     setting_number(settings, "damping");
     return std::make_unique<FakeWorld>(scenario, kind_);
   }

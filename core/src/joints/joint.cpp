@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace plumbline {
 namespace {
@@ -33,7 +34,17 @@ void require_range(const Joint& joint, std::size_t k) {
       break;
     case JointKind::kFixed:
       refuse("joint", k, "a fixed joint has no coordinate: leave its range out");
+    case JointKind::kDistance:
+      refuse("joint", k, "a distance joint holds one length: leave its range out");
   }
+}
+
+// A frame given in W, in the axes of that body.
+JointFrame seen_from(std::size_t body, const std::vector<BodyState>& states, const JointFrame& in_W) {
+  if (body == kWorld) return in_W;
+  const BodyState& s = states.at(body);
+  const Quat q_BW = s.q_WB.conjugate();
+  return {q_BW * (in_W.anchor - s.p_WB), (q_BW * in_W.attitude).normalized()};
 }
 
 Mat3 inertia_W(const BodyInertia& body, const Quat& q_WB) {
@@ -43,6 +54,11 @@ Mat3 inertia_W(const BodyInertia& body, const Quat& q_WB) {
 
 }  // namespace
 
+std::string_view joint_name(JointKind kind) {
+  static constexpr std::string_view kNames[] = {"ball", "hinge", "slider", "fixed", "distance"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
 JointFrame frame_along(const Vec3& anchor, const Vec3& axis) {
   if (!(axis.norm() > 0)) throw std::invalid_argument("a joint's axis must have a length: give a direction");
   return {anchor, Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis))};
@@ -51,13 +67,24 @@ JointFrame frame_along(const Vec3& anchor, const Vec3& axis) {
 Joint joint_at(JointKind kind, std::size_t a, std::size_t b, const std::vector<BodyState>& states, const Vec3& anchor_W,
                const Vec3& axis_W) {
   const JointFrame in_W = frame_along(anchor_W, axis_W);
-  const auto seen_from = [&](std::size_t body) {
-    if (body == kWorld) return in_W;
-    const BodyState& s = states.at(body);
-    const Quat q_BW = s.q_WB.conjugate();
-    return JointFrame{q_BW * (anchor_W - s.p_WB), (q_BW * in_W.attitude).normalized()};
-  };
-  return {kind, a, b, seen_from(a), seen_from(b), std::nullopt};
+  return {kind, a, b, seen_from(a, states, in_W), seen_from(b, states, in_W), std::nullopt, 0, {}};
+}
+
+Joint rod_between(std::size_t a, std::size_t b, const std::vector<BodyState>& states, const Vec3& end_a_W,
+                  const Vec3& end_b_W) {
+  const double length = (end_b_W - end_a_W).norm();
+  if (!(length > 0)) throw std::invalid_argument("a distance joint needs two different points, its length is not > 0");
+  return {JointKind::kDistance, a,      b, seen_from(a, states, {end_a_W}), seen_from(b, states, {end_b_W}),
+          std::nullopt,         length, {}};
+}
+
+Joint reversed(const Joint& joint) {
+  Joint other = joint;
+  std::swap(other.a, other.b);
+  std::swap(other.on_a, other.on_b);
+  // The angle of a hinge from x_B to x_A about the common z, and the travel of A along it, count the other way.
+  if (joint.range && joint.kind != JointKind::kBall) other.range = JointRange{-joint.range->high, -joint.range->low};
+  return other;
 }
 
 void require_valid(const ArticulatedBody& body) {
@@ -75,6 +102,9 @@ void require_valid(const ArticulatedBody& body) {
     if (joint.a == joint.b) refuse("joint", k, "it ties a body to itself");
     if (!usable(joint.on_a) || !usable(joint.on_b)) refuse("joint", k, "frames need finite anchors, unit attitudes");
     if (joint.range) require_range(joint, k);
+    if (joint.kind == JointKind::kDistance && !(joint.length > 0 && std::isfinite(joint.length))) {
+      refuse("joint", k, "a distance joint needs a length > 0");
+    }
   }
 }
 

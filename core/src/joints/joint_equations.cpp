@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 #include "joint_conditions.hpp"
 #include "plumbline/core/metric.hpp"
@@ -45,6 +46,8 @@ void append(const Joint& joint, std::span<const BodyState> states, std::vector<J
       return append_slider(placed, rows);
     case JointKind::kFixed:
       return append_fixed(placed, rows);
+    case JointKind::kDistance:
+      return append_distance(placed, joint.length, rows);
   }
 }
 
@@ -95,9 +98,10 @@ JointRow coordinate_row(const Joint& joint, std::span<const BodyState> states) {
     case JointKind::kSlider:
       return travel_along(placed, placed.axes_A.col(2));
     case JointKind::kFixed:
+    case JointKind::kDistance:
       break;
   }
-  throw std::invalid_argument("a fixed joint has no coordinate");
+  throw std::invalid_argument("a " + std::string(joint_name(joint.kind)) + " joint has no coordinate");
 }
 
 }  // namespace plumbline

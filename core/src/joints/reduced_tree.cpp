@@ -43,6 +43,8 @@ ReducedTree::ReducedTree(const ArticulatedBody& body) : body_(body) {
     const Joint& joint = body.joints[k];
     if (joint.b != k) refuse(k, "it must carry body k: sort the joints");
     if (joint.a != kWorld && joint.a >= k) refuse(k, "its parent must come before it: sort the bodies");
+    if (joint.kind == JointKind::kDistance)
+      refuse(k, "a distance joint is no tree: its rod has a ball joint at either end");
     if (joint.kind == JointKind::kBall) refuse(k, "a ball joint is three hinges with bodies of mass 0 between them");
     if (!(body.bodies[k].mass >= 0)) refuse(k, "the mass of its body must be >= 0");
     coordinate_.push_back(joint.kind == JointKind::kFixed ? -1 : freedoms_++);

@@ -32,7 +32,9 @@ double rebound_speed(double approach, double resting_speed, double restitution) 
 
 }  // namespace
 
-FeatureSet simulator_features() { return FeatureSet::all(); }
+FeatureSet simulator_features() {
+  return FeatureSet::all().without(FeatureSet::joints()).without({Feature::kJointsAndContact});
+}
 
 Simulator::Simulator(const Scenario& scenario, const Scheme& scheme, const SimulatorOptions& options)
     : scheme_(scheme),

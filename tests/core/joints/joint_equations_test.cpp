@@ -29,7 +29,7 @@ std::vector<BodyState> random_states(Random& random) {
 }
 
 Joint random_joint(Random& random, JointKind kind) {
-  return {kind, random.below(3) == 0 ? kWorld : 0, 1, random_frame(random), random_frame(random), std::nullopt};
+  return {kind, random.below(3) == 0 ? kWorld : 0, 1, random_frame(random), random_frame(random), std::nullopt, 0, {}};
 }
 
 // Central differences of fourth order: their error is h^4/30 times a fifth derivative, below 100 for these sizes
@@ -101,7 +101,7 @@ TEST(JointRows, AreAsManyAsTheJointHolds) {
   const std::vector<BodyState> states(2);
   const std::size_t expected[] = {3, 5, 5, 6};
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(joint_rows(Joint{kKinds[k], 0, 1, {}, {}, std::nullopt}, states).size(), expected[k]);
+    EXPECT_EQ(joint_rows(Joint{kKinds[k], 0, 1, {}, {}, std::nullopt, 0, {}}, states).size(), expected[k]);
   }
 }
 
@@ -178,7 +178,7 @@ TEST(JointValidity, IsRefusedWithTheReason) {
   refused([](ArticulatedBody& bad) { bad.joints[0].range = JointRange{-4, 1}; });
   refused([](ArticulatedBody& bad) { bad.joints[0].kind = JointKind::kFixed; });
   refused([](ArticulatedBody& bad) { bad.joints[0].kind = JointKind::kBall; });  // its low must be 0
-  EXPECT_THROW(coordinate_row(Joint{JointKind::kFixed, 0, 1, {}, {}, std::nullopt}, std::vector<BodyState>(2)),
+  EXPECT_THROW(coordinate_row(Joint{JointKind::kFixed, 0, 1, {}, {}, std::nullopt, 0, {}}, std::vector<BodyState>(2)),
                std::invalid_argument);
   EXPECT_THROW(frame_along(Vec3::Zero(), Vec3::Zero()), std::invalid_argument);
 }

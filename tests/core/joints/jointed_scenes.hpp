@@ -44,7 +44,7 @@ inline ArticulatedBody random_tree(Random& random, std::size_t bodies) {
     const JointKind kind = draw < 3 ? JointKind::kHinge : draw == 3 || k == 0 ? JointKind::kSlider : JointKind::kFixed;
     const std::size_t parent = random.below(k + 1);
     tree.joints.push_back(
-        {kind, parent == k ? kWorld : parent, k, random_frame(random), random_frame(random), std::nullopt});
+        {kind, parent == k ? kWorld : parent, k, random_frame(random), random_frame(random), std::nullopt, 0, {}});
   }
   return tree;
 }
@@ -59,8 +59,14 @@ inline ArticulatedBody planar_chain(const std::vector<double>& m, const std::vec
   for (std::size_t k = 0; k < m.size(); ++k) {
     chain.bodies.push_back({m[k], inertia[k] * Mat3::Identity()});
     const Vec3 on_parent = k == 0 ? Vec3::Zero() : Vec3(0, 0, d[k - 1] - l[k - 1]);
-    chain.joints.push_back({JointKind::kHinge, k == 0 ? kWorld : k - 1, k, frame_along(on_parent, -Vec3::UnitY()),
-                            frame_along(Vec3(0, 0, d[k]), -Vec3::UnitY()), std::nullopt});
+    chain.joints.push_back({JointKind::kHinge,
+                            k == 0 ? kWorld : k - 1,
+                            k,
+                            frame_along(on_parent, -Vec3::UnitY()),
+                            frame_along(Vec3(0, 0, d[k]), -Vec3::UnitY()),
+                            std::nullopt,
+                            0,
+                            {}});
   }
   return chain;
 }

@@ -177,7 +177,7 @@ TEST(ReducedTree, MakesABallJointOfThreeHinges) {
   for (std::size_t k = 0; k < 3; ++k) {
     const JointFrame frame = frame_along(Vec3::Zero(), axes[k]);
     top.bodies.push_back({0, Mat3::Zero()});
-    top.joints.push_back({JointKind::kHinge, k == 0 ? kWorld : k - 1, k, frame, frame, std::nullopt});
+    top.joints.push_back({JointKind::kHinge, k == 0 ? kWorld : k - 1, k, frame, frame, std::nullopt, 0, {}});
   }
   top.bodies[2] = {15, Vec3(0.234375, 0.46875, 0.234375).asDiagonal()};
   top.joints[2].on_b.anchor = -Vec3::UnitY();

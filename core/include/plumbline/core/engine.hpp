@@ -67,8 +67,14 @@ class Engine {
  public:
   virtual ~Engine() = default;
   virtual const EngineInfo& info() const = 0;
-  // `settings` holds a value for each row of info().settings. Throws std::exception with a message for people.
-  virtual std::unique_ptr<World> build(const Scenario& scenario, const Settings& settings) const = 0;
+  // `settings` holds a value for each row of info().settings. Throws std::exception with a message for people: for a
+  // scenario that is not sound (require_sound), for one that needs what the engine has not, for a setting that is
+  // missing, unknown or of another type, and for what the engine itself refuses.
+  std::unique_ptr<World> build(const Scenario& scenario, const Settings& settings) const;
+
+ protected:
+  // Called with a sound scenario within features(), and with all settings.
+  virtual std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const = 0;
 };
 
 // Defined once by every adapter: its rows. The worker program links exactly one adapter.
@@ -76,6 +82,10 @@ std::vector<std::unique_ptr<Engine>> make_engines();
 
 // Every setting's value under that profile.
 Settings settings_of(const EngineInfo& info, Profile profile);
+
+// Throws std::invalid_argument, naming the setting and the way out, unless `settings` holds exactly one value of the
+// right type for each row of info.settings.
+void require_settings(const EngineInfo& info, const Settings& settings);
 
 // Typed access; throws std::invalid_argument that names the setting when it is absent or of another type.
 bool setting_bool(const Settings& settings, std::string_view name);

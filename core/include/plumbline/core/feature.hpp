@@ -21,6 +21,13 @@ enum class Feature : std::size_t {
   kBoxBox,
   kRestitution,  // e > 0
   kFriction,     // mu > 0
+  kBallJoint,
+  kHinge,
+  kSlider,
+  kFixedJoint,
+  kDistanceJoint,
+  kJointLoop,         // joints that close a loop, over the world or not
+  kJointsAndContact,  // joints and contact in one scenario
   kCount,
 };
 inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::kCount);
@@ -32,6 +39,7 @@ class FeatureSet {
     for (Feature f : features) insert(f);
   }
   static FeatureSet all();
+  static FeatureSet joints();  // of every kind, loops included
   void insert(Feature f) { bits_.set(static_cast<std::size_t>(f)); }
   bool contains(Feature f) const { return bits_.test(static_cast<std::size_t>(f)); }
   bool empty() const { return bits_.none(); }

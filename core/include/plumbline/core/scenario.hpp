@@ -10,6 +10,7 @@
 
 #include "plumbline/core/body.hpp"
 #include "plumbline/core/gate.hpp"
+#include "plumbline/core/joints/joint.hpp"
 
 namespace plumbline {
 
@@ -63,6 +64,9 @@ struct Scenario {
   Scales scales;
 
   std::vector<Body> bodies;
+  // A joint's b always moves; its a moves too or is kWorld, never a body that is fixed. The initial states hold every
+  // joint, in place and in velocity. Bodies that a joint ties to each other do not collide.
+  std::vector<Joint> joints;
   std::vector<ForceLaw> forces;
   std::optional<ContactMaterial> contact;  // none: bodies pass through each other
 
@@ -76,6 +80,18 @@ struct Scenario {
   std::size_t step_count(double dt) const;
   std::size_t body_index(const std::string& name) const;  // throws std::out_of_range
 };
+
+// Whether a joint ties these two bodies to each other.
+bool joined(const Scenario& scenario, std::size_t body, std::size_t other);
+
+// Throws std::invalid_argument, naming body or joint and the way out, for a scenario that no engine can be asked to
+// run: numbers that are not finite, moving bodies without mass or inertia, joints of bodies that do not exist, are
+// fixed, or do not hold in the initial states.
+void require_sound(const Scenario& scenario);
+
+// The moving bodies and the joints as the core's own joint functions want them; fixed bodies get a unit mass, which
+// matters to nobody since no joint leads to them.
+ArticulatedBody articulated_body(const Scenario& scenario);
 
 // The sum of all force laws on each body at time t [s] and these states; both spans hold one entry per body.
 void evaluate_forces(const Scenario& scenario, double t, std::span<const BodyState> states, std::span<Wrench> wrenches);

@@ -51,11 +51,13 @@ struct PlacedJoint {
   Vec3 gap, gap_rate;   // from A's anchor to B's [m], and its rate [m/s]
 };
 
-// Added to `rows`, one function and one file a kind: three rows for a ball, five for hinge and slider, six for fixed.
+// Added to `rows`, one function and one file a kind: three rows for a ball, five for hinge and slider, six for fixed,
+// one for distance.
 void append_ball(const PlacedJoint& joint, std::vector<JointRow>& rows);
 void append_hinge(const PlacedJoint& joint, std::vector<JointRow>& rows);
 void append_slider(const PlacedJoint& joint, std::vector<JointRow>& rows);
 void append_fixed(const PlacedJoint& joint, std::vector<JointRow>& rows);
+void append_distance(const PlacedJoint& joint, double length, std::vector<JointRow>& rows);
 
 std::vector<JointRow> joint_rows(const Joint& joint, std::span<const BodyState> states);
 // Those of all joints, one after the other.
@@ -67,7 +69,8 @@ double joint_error(const ArticulatedBody& body, std::span<const BodyState> state
 //   hinge    angle from x_A to x_B about z_A, in (-pi, pi]
 //   slider   travel of B's anchor along z_A
 //   ball     angle from z_A to z_B, in [0, pi]; at 0 its axis is undefined and the row is 0
-// Rates are exact where the joint's own C is 0. Throws std::invalid_argument for a fixed joint.
+// Rates are exact where the joint's own C is 0. Throws std::invalid_argument for a fixed joint and for a distance
+// joint.
 JointRow coordinate_row(const Joint& joint, std::span<const BodyState> states);
 
 }  // namespace plumbline

@@ -1,0 +1,27 @@
+// The x-z plane of a scenario as the x-y plane of a planar engine.
+//
+// The engine's (x, y) are the scenario's (x, z). A positive rotation about +y turns z towards x; a positive one in the
+// engine turns its x towards its y, that is x towards z: angle = -(angle about +y), and likewise for angular velocity
+// and torque.
+#pragma once
+
+#include "plumbline/core/state.hpp"
+
+namespace plumbline {
+
+// What is left of a state in the plane: what a planar engine knows of a body.
+struct PlanarState {
+  double x = 0, z = 0;    // [m]
+  double angle = 0;       // counted as the engine does [rad]
+  double vx = 0, vz = 0;  // [m/s]
+  double w = 0;           // counted as the engine does [rad/s]
+};
+
+// Rotation out of the plane is dropped: the angle is that of the twist of q_WB about y.
+PlanarState in_plane(const BodyState& state);
+// Nothing moves along y, nor turns out of the plane.
+BodyState in_space(const PlanarState& state);
+// The engine's torque [N m] of a torque in W.
+inline double planar_torque(const Vec3& tau_W) { return -tau_W.y(); }
+
+}  // namespace plumbline
