@@ -40,7 +40,10 @@ Installation find_installation() {
   }
   add_workers(root / "libexec/plumbline", result.workers);
   std::ifstream left_out(root / "share/plumbline/engines_left_out.tsv");
-  for (std::string name, package; left_out >> name >> package;) result.left_out.push_back({name, package});
+  for (std::string line; std::getline(left_out, line);) {
+    const std::size_t tab = line.find('\t');  // a library may take several packages, with spaces between
+    if (tab != std::string::npos) result.left_out.push_back({line.substr(0, tab), line.substr(tab + 1)});
+  }
   return result;
 }
 

@@ -248,13 +248,16 @@ void add_run_verb(CLI::App& program, Action& action) {
           "than once, any of them; -REGEX leaves out what matches")
       ->allow_extra_args(false);
   verb->add_option("-e,--engines", o->engines, "Only these engines: bullet-f32, or bullet for all its rows")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   verb->add_option("--profile", o->profile, "Engine settings: default, matched or both")
       ->check(CLI::IsMember({"default", "matched", "both"}))
       ->capture_default_str();
   verb->add_option("-P,--parameter", o->parameters, "NAME=VALUE[,VALUE...]: set or sweep a scenario parameter")
       ->allow_extra_args(false);
-  verb->add_option("--dt", o->steps, "Time steps [s] instead of the scenario's: 0.02,1/240")->delimiter(',');
+  verb->add_option("--dt", o->steps, "Time steps [s] instead of the scenario's: 0.02,1/240")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   verb->add_option("-j,--jobs", o->jobs, "Runs at once")->check(CLI::Range(1u, 1024u))->capture_default_str();
   verb->add_option("--timeout", o->timeout, "Wall-clock limit of one run [s]")
       ->check(CLI::PositiveNumber)

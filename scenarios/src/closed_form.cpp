@@ -151,11 +151,8 @@ class ClosedFormReader {
 
 }  // namespace
 
-std::shared_ptr<const Reference> read_reference(const Node& root, const Parameters& constants,
-                                                const Scenario& scenario) {
-  const Node& table = as_table(need(root, "reference", "[reference] with kind = \"closed_form\" and the solution"));
-  const Node& kind = need(table, "kind", "kind = \"closed_form\"");
-  if (as_text(kind) != "closed_form") fail(kind, fmt::format("unknown kind '{}'; known: closed_form", kind.text));
+std::shared_ptr<const Reference> read_closed_form(const Node& table, const Parameters& constants,
+                                                  const Scenario& scenario) {
   return ClosedFormReader(table, constants, scenario).read();
 }
 

@@ -8,10 +8,11 @@
 #include <fstream>
 #include <iterator>
 
-#include "closed_form.hpp"
 #include "document.hpp"
 #include "expression.hpp"
 #include "gate_fields.hpp"
+#include "joint_fields.hpp"
+#include "reference_table.hpp"
 #include "scene.hpp"
 #include "sweep.hpp"
 
@@ -79,6 +80,7 @@ Case read_case(const Node& root, const ParameterSet& set) {
   if (const Node* gravity = find(root, "gravity")) s.gravity = vector3(*gravity, constants);
   s.scales = read_scales(root, constants);
   s.bodies = read_bodies(root, constants);
+  s.joints = read_joints(root, constants, s);
   s.contact = read_contact(root, constants);
   s.forces = read_forces(root, constants, s.bodies);
   s.events = read_events(root, constants, s);
@@ -89,7 +91,7 @@ Case read_case(const Node& root, const ParameterSet& set) {
 
 std::vector<Case> read_document(const Node& root, const Overrides& overrides) {
   allow_only(root, {"id", "about", "source", "duration", "steps", "gravity", "parameters", "derived", "scales",
-                    "contact", "body", "force", "reference", "event", "gate"});
+                    "contact", "body", "joint", "force", "reference", "event", "gate"});
   std::vector<Case> cases;
   for (const ParameterSet& set : expand_sweeps(root, overrides)) cases.push_back(read_case(root, set));
   return cases;

@@ -55,10 +55,11 @@ Vec3 read_inertia(const Node& node, const Parameters& constants) {
 std::string read_name(const Node& table, const std::vector<Body>& earlier) {
   const Node& node = need(table, "name", "name = \"...\"");
   const std::string& name = as_text(node);
-  static const std::vector<std::string> kTaken = {"kind", "uncertainty", "citation", "let"};
+  static const std::vector<std::string> kTaken = {"kind", "uncertainty", "citation", "let", "solution"};
   if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end()) {
     fail(node, fmt::format("'{}' is a key of [reference]; choose another name", name));
   }
+  if (name == "world") fail(node, "'world' is what joints call the rest frame; choose another name");
   if (std::any_of(earlier.begin(), earlier.end(), [&](const Body& b) { return b.name == name; })) {
     fail(node, fmt::format("the name '{}' is used twice; give each body its own", name));
   }

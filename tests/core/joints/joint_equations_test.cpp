@@ -159,7 +159,7 @@ TEST(JointCoordinate, IsTheAngleOrTravelAndChangesAtItsRowsRate) {
 TEST(JointValidity, IsRefusedWithTheReason) {
   ArticulatedBody body;
   body.bodies = {{1, Mat3::Identity()}, {1, Mat3::Identity()}};
-  const Joint good{JointKind::kHinge, 0, 1, {}, {}, JointRange{-1, 1}};
+  const Joint good{JointKind::kHinge, 0, 1, {}, {}, JointRange{-1, 1}, 0, {}};
   body.joints = {good};
   EXPECT_NO_THROW(require_valid(body));
   const auto refused = [&](auto change) {

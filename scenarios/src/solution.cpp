@@ -1,0 +1,116 @@
+#include "solution.hpp"
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "plumbline/core/exact/planar_pendulum.hpp"
+#include "plumbline/core/exact/torque_free_top.hpp"
+
+namespace plumbline {
+namespace {
+
+class NamedSolution : public Reference {
+ public:
+  explicit NamedSolution(std::string citation) : citation_(std::move(citation)) {}
+  std::string_view citation() const override { return citation_; }
+  std::string_view kind() const override { return "solution"; }
+
+ private:
+  std::string citation_;
+};
+
+[[noreturn]] void refuse(const char* why) { throw std::invalid_argument(why); }
+
+// Bodies on their own: each one a free top whose centre of mass moves on uniformly.
+class TorqueFreeRotation final : public NamedSolution {
+ public:
+  TorqueFreeRotation(const Scenario& scenario, std::string citation) : NamedSolution(std::move(citation)) {
+    if (!scenario.forces.empty() || !scenario.joints.empty() || scenario.contact || !scenario.gravity.isZero(0)) {
+      refuse("nothing may act on the bodies: no force, joint, contact or gravity");
+    }
+    for (const Body& body : scenario.bodies) {
+      if (body.fixed) refuse("every body must move");
+      tops_.emplace_back(body.inertia, body.initial);
+      // exact/torque_free_top.hpp: a few 1e-16 times the angle turned, magnified near the separatrix.
+      const double turned = 1 + body.initial.w_WB.norm() * scenario.duration;
+      uncertainty_ = std::max(uncertainty_, 8e-16 * turned / (1 - tops_.back().parameter()));
+    }
+  }
+  BodyState at(std::size_t body, double t) const override { return tops_[body].at(t); }
+  double uncertainty() const override { return uncertainty_; }
+
+ private:
+  std::vector<TorqueFreeTop> tops_;
+  double uncertainty_ = 0;
+};
+
+// One body on one hinge that is tied to the world, under gravity at right angles to the hinge.
+class PendulumOnHinge final : public NamedSolution {
+ public:
+  PendulumOnHinge(const Scenario& scenario, std::string citation) : NamedSolution(std::move(citation)) {
+    if (scenario.bodies.size() != 1 || scenario.joints.size() != 1 || !scenario.forces.empty() || scenario.contact) {
+      refuse("it is for one body on one hinge, without force laws and contact");
+    }
+    const Body& body = scenario.bodies.front();
+    const Joint& joint = scenario.joints.front();
+    if (joint.kind != JointKind::kHinge || joint.a != kWorld) refuse("its joint must be a hinge to the world");
+    start_ = body.initial;
+    axis_W_ = joint.on_a.axis();
+    const Vec3 from_anchor = start_.p_WB - joint.on_a.anchor;
+    centre_ = joint.on_a.anchor + axis_W_ * axis_W_.dot(from_anchor);  // of the circle that the centre of mass runs on
+    arm_ = start_.p_WB - centre_;
+    const double g = scenario.gravity.norm(), d = arm_.norm();
+    if (!(g > 0) || std::abs(axis_W_.dot(scenario.gravity)) > 1e-12 * g) {
+      refuse("the hinge's axis must be at right angles to gravity");
+    }
+    if (!(d > 0)) refuse("the centre of mass must not lie on the axis");
+    const double inertia = axis_W_.dot(inertia_in_world(body, start_.q_WB) * axis_W_) + body.mass * d * d;
+    const Vec3 down = scenario.gravity / g;
+    const PendulumState initial{std::atan2(axis_W_.dot(down.cross(arm_)), down.dot(arm_)), axis_W_.dot(start_.w_WB)};
+    const double w0 = std::sqrt(body.mass * g * d / inertia);
+    pendulum_.emplace(w0, initial);
+    angle0_ = initial.angle;
+    // exact/planar_pendulum.hpp: a few 1e-16 (1 + w0 t) of the arm, magnified near the upright position.
+    const double k2 = std::pow(std::sin(initial.angle / 2), 2) + std::pow(initial.rate / (2 * w0), 2);
+    uncertainty_ = 8e-16 * (1 + w0 * scenario.duration) / std::abs(1 - k2) * (1 + d / scenario.scales.length);
+  }
+  BodyState at(std::size_t, double t) const override {
+    const PendulumState now = pendulum_->at(t);
+    const Quat turn = rotation_by((now.angle - angle0_) * axis_W_);
+    BodyState s;
+    const Vec3 arm = turn * arm_;
+    s.p_WB = centre_ + arm;
+    s.q_WB = turn * start_.q_WB;
+    s.w_WB = now.rate * axis_W_;
+    s.v_WB = s.w_WB.cross(arm);
+    return s;
+  }
+  double uncertainty() const override { return uncertainty_; }
+
+ private:
+  BodyState start_;
+  Vec3 axis_W_, centre_, arm_;
+  double angle0_ = 0, uncertainty_ = 0;
+  std::optional<PlanarPendulum> pendulum_;
+};
+
+template <typename Kind>
+std::shared_ptr<const Reference> solved_by(const Scenario& scenario, std::string citation) {
+  return std::make_shared<Kind>(scenario, std::move(citation));
+}
+
+}  // namespace
+
+const std::vector<Solution>& solutions() {
+  static const std::vector<Solution> kTable = {
+      {"torque_free_rotation",
+       "Euler's equations solved by Jacobi's elliptic functions; Landau and Lifshitz, section 37",
+       solved_by<TorqueFreeRotation>},
+      {"planar_pendulum", "the energy integral solved by Jacobi's elliptic functions; Landau and Lifshitz, section 11",
+       solved_by<PendulumOnHinge>},
+  };
+  return kTable;
+}
+
+}  // namespace plumbline
