@@ -6,6 +6,7 @@
 
 #include "plumbline/core/event_time.hpp"
 #include "plumbline/core/invariant.hpp"
+#include "plumbline/core/joints/joint_equations.hpp"
 
 namespace plumbline {
 namespace {
@@ -124,8 +125,19 @@ double events_missed(const Comparison& c) {
   return static_cast<double>(std::count(found.begin(), found.end(), std::nullopt));
 }
 
+// What the joints lack, over the run: how far anchors are apart, or axes from parallel.
+double joint_gap(const Comparison& c) {
+  const ArticulatedBody body = articulated_body(c.scenario);
+  double largest = 0;
+  for (std::size_t k = 0; k < common_samples(c); ++k) {
+    largest = max_or_nan(largest, joint_error(body, sample_of(c.actual, k)));
+  }
+  return largest;
+}
+
 bool always(const Scenario&) { return true; }
 bool has_events(const Scenario& s) { return !s.events.empty(); }
+bool has_joints(const Scenario& s) { return !s.joints.empty(); }
 
 constexpr Metric kTable[] = {
     {"position.max", "m", "largest distance of a centre of mass from the reference", maximum<position>, always},
@@ -160,6 +172,8 @@ constexpr Metric kTable[] = {
      has_events},
     {"events.missed", "1", "number of events of the reference that the trajectory does not show", events_missed,
      has_events},
+    {"joint_gap.max", "m", "how far a joint comes apart at most; for its axes the sine of the angle [rad]", joint_gap,
+     has_joints},
 };
 
 }  // namespace

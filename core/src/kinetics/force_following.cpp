@@ -5,12 +5,20 @@
 #include <string>
 
 #include "plumbline/core/integration/stepper_table.hpp"
+#include "plumbline/core/joints/constrained_motion.hpp"
+#include "plumbline/core/kinetics/jointed_motion.hpp"
 #include "plumbline/core/mass/newton_euler.hpp"
 #include "plumbline/core/response/impulse.hpp"
 
 namespace plumbline {
 
 AccelerationField acceleration_field(const Scenario& scenario, GyroscopicTerm gyroscopic) {
+  if (!scenario.joints.empty()) {
+    return constrained_field(articulated_body(scenario),
+                             [scenario](double t, std::span<const BodyState> states, std::span<Wrench> wrenches) {
+                               evaluate_forces(scenario, t, states, wrenches);
+                             });
+  }
   return [scenario, gyroscopic, wrenches = std::vector<Wrench>(scenario.bodies.size())](
              double t, std::span<const BodyState> states, std::span<Acceleration> accelerations) mutable {
     evaluate_forces(scenario, t, states, wrenches);
@@ -45,9 +53,13 @@ Trajectory follow_forces(const Scenario& scenario, const Scheme& scheme, double 
   record();
   const AccelerationField field = acceleration_field(scenario, scheme.gyroscopic);
   const std::unique_ptr<Stepper> stepper = make_stepper(scheme.integrator);
+  const ArticulatedBody body = articulated_body(scenario);
   const double h = dt / scheme.substeps;
   for (std::size_t k = 0; k < steps; ++k) {
-    for (int j = 0; j < scheme.substeps; ++j) stepper->step(field, trajectory.time(k) + j * h, h, states);
+    for (int j = 0; j < scheme.substeps; ++j) {
+      stepper->step(field, trajectory.time(k) + j * h, h, states);
+      if (!scenario.joints.empty()) back_onto_joints(scenario, body, states);
+    }
     record();
   }
   return trajectory;

@@ -49,6 +49,7 @@ std::string assembled(const Scheme& scheme, bool with_gyroscopic_term, bool with
 // Whether the gyroscopic term can ever be other than zero: w x I w vanishes where all moments are the same, and where
 // nothing turns the body.
 bool gyroscopic_term_matters(const Scenario& scenario) {
+  if (!scenario.joints.empty()) return false;  // require_possible: there is one way only
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
     const Body& body = scenario.bodies[i];
     const Vec3& moments = body.inertia;
@@ -82,6 +83,12 @@ void require_possible(const Scheme& scheme, const Scenario& scenario) {
   if (scheme.forces == ForceSampling::kFollowed && scheme.gyroscopic != GyroscopicTerm::kExplicit &&
       scheme.gyroscopic != GyroscopicTerm::kNone) {
     refuse("an integrator that follows the forces follows the gyroscopic term as one of them; choose explicit or none");
+  }
+  if (!scenario.joints.empty()) {
+    if (scenario.contact) refuse("joints and contact are not solved together; take one of them out");
+    if (scheme.gyroscopic != GyroscopicTerm::kExplicit) {
+      refuse("joints answer the gyroscopic term at once; choose the explicit one");
+    }
   }
   if (!scenario.contact) return;
   if (scheme.forces == ForceSampling::kFollowed) refuse("bodies can touch; hold the forces over the step");

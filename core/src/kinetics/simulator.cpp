@@ -32,9 +32,7 @@ double rebound_speed(double approach, double resting_speed, double restitution) 
 
 }  // namespace
 
-FeatureSet simulator_features() {
-  return FeatureSet::all().without(FeatureSet::joints()).without({Feature::kJointsAndContact});
-}
+FeatureSet simulator_features() { return FeatureSet::all().without({Feature::kJointsAndContact}); }
 
 Simulator::Simulator(const Scenario& scenario, const Scheme& scheme, const SimulatorOptions& options)
     : scheme_(scheme),
@@ -54,6 +52,7 @@ Simulator::Simulator(const Scenario& scenario, const Scheme& scheme, const Simul
     states_.push_back(body.initial);
   }
   if (material_) pairs_ = contact_pairs(bodies_);
+  if (!scenario.joints.empty()) jointed_.emplace(scenario, scheme.integrator);
 }
 
 void Simulator::apply(std::span<const Wrench> wrenches) {
@@ -68,6 +67,10 @@ void Simulator::step(double dt) {
   if (!(dt > 0)) throw std::invalid_argument("a step of " + std::to_string(dt) + " s: it must be > 0");
   dt_ = dt / scheme_.substeps;
   for (int k = 0; k < scheme_.substeps; ++k) {
+    if (jointed_) {
+      jointed_->step(dt_, wrenches_, states_);
+      continue;
+    }
     free_ = free_accelerations();
     if (scheme_.impact == ImpactRule::kExactTime || !material_) {  // where nothing touches, all rules agree
       step_exact_time(dt_);

@@ -14,7 +14,7 @@ namespace plumbline {
 
 // The scenario's equations of motion: m a = m g + f and I alpha = tau - w x I w, with the last term left out for
 // GyroscopicTerm::kNone. Bodies that are fixed, and axes whose moment of inertia is 0, have no acceleration. The
-// scenario is copied.
+// scenario is copied. Where joints hold the bodies their forces are part of it, with the explicit gyroscopic term.
 AccelerationField acceleration_field(const Scenario& scenario, GyroscopicTerm gyroscopic = GyroscopicTerm::kExplicit);
 
 // The integrator of a scheme behind the interface that all integrators share.

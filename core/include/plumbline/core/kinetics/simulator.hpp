@@ -11,6 +11,7 @@
 #include "plumbline/core/collision/contact.hpp"
 #include "plumbline/core/collision/shape_impact.hpp"
 #include "plumbline/core/feature.hpp"
+#include "plumbline/core/kinetics/jointed_motion.hpp"
 #include "plumbline/core/kinetics/scheme.hpp"
 #include "plumbline/core/response/impulse.hpp"
 #include "plumbline/core/trajectory.hpp"
@@ -29,7 +30,7 @@ struct SimulatorOptions {
   Leaps leaps = Leaps::kAllowed;
 };
 
-// What a scenario may need for the simulator to run it.
+// What a scenario may need for the simulator to run it: all but joints and contact together.
 FeatureSet simulator_features();
 
 // Impacts at their exact time (course slide 24, the simple motion simulator, with one correction: the slide resolves
@@ -107,8 +108,9 @@ class Simulator {
   std::vector<Pair> pairs_;  // empty when bodies pass through each other
   std::vector<BodyState> states_;
   std::vector<Wrench> wrenches_;
-  double dt_ = 0;       // of the current step
-  Accelerations free_;  // of the current step, without contacts
+  std::optional<JointedMotion> jointed_;  // when joints hold the bodies
+  double dt_ = 0;                         // of the current step
+  Accelerations free_;                    // of the current step, without contacts
 };
 
 // A whole run, initial state included: scenario.step_count(dt) steps, the force laws evaluated at the start of each

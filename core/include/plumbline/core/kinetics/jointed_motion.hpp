@@ -1,0 +1,36 @@
+// Bodies that joints hold, moved forward by a scheme in maximal coordinates (course slides 32, 35 and 36).
+//
+// A step takes the accelerations that Newton, Euler and the joints demand together (joints/constrained_motion.hpp),
+// goes through it with the scheme's integrator, and puts places and velocities back onto the joints
+// (joints/joint_projection.hpp), so that no joint ever comes apart. The order is that of the integrator, except that
+// velocity Verlet with held forces stays of second order only as long as nothing but gravity acts.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "plumbline/core/integration/stepper.hpp"
+#include "plumbline/core/kinetics/scheme.hpp"
+#include "plumbline/core/scenario.hpp"
+
+namespace plumbline {
+
+class JointedMotion {
+ public:
+  // Throws std::invalid_argument where require_valid(ArticulatedBody) does.
+  JointedMotion(const Scenario& scenario, Integrator integrator);
+  // Advances by dt [s] under wrenches that are held over the step, one per body. Throws std::runtime_error when the
+  // joints cannot be closed again: dt is far too large.
+  void step(double dt, std::span<const Wrench> wrenches, std::span<BodyState> states);
+
+ private:
+  Scenario scenario_;
+  ArticulatedBody body_;
+  std::shared_ptr<Stepper> stepper_;
+};
+
+// The least motion that closes all joints in place and in velocity; fixed bodies go back to where they are stated.
+// Throws std::runtime_error when that fails.
+void back_onto_joints(const Scenario& scenario, const ArticulatedBody& body, std::span<BodyState> states);
+
+}  // namespace plumbline
