@@ -14,9 +14,44 @@ namespace plumbline {
 namespace {
 
 struct ListOptions {
-  std::vector<std::string> paths, filter;
-  bool json = false;
+  std::vector<std::string> paths, filter, engines;
+  bool json = false, settings = false;
 };
+
+std::string shown(const SettingValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value)) return *text;
+  if (const auto* number = std::get_if<double>(&value)) return shortest(*number);
+  return std::get<bool>(value) ? "true" : "false";
+}
+
+// What --set can change, row by row.
+void print_settings(const EngineInventory& engines) {
+  for (const EngineRow& row : engines.rows) {
+    fmt::print("{}  ({} {})\n", row.info.name, row.info.library, row.info.version);
+    for (const Setting& s : row.info.settings) {
+      const std::string matched = s.matched_value == s.default_value ? "" : ", matched " + shown(s.matched_value);
+      fmt::print("  {}.{} = {}{}{}\n      {}\n", row.info.name, s.name, shown(s.default_value), matched,
+                 s.unit.empty() ? "" : "  [" + s.unit + "]", s.meaning);
+    }
+    fmt::print("\n");
+  }
+}
+
+nlohmann::json json_of(const SettingValue& value) {
+  return std::visit([](const auto& v) { return nlohmann::json(v); }, value);
+}
+
+nlohmann::json json_of(const std::vector<Setting>& settings) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Setting& s : settings) {
+    rows.push_back({{"name", s.name},
+                    {"default", json_of(s.default_value)},
+                    {"matched", json_of(s.matched_value)},
+                    {"unit", s.unit},
+                    {"meaning", s.meaning}});
+  }
+  return rows;
+}
 
 nlohmann::json listing(const ScenarioInventory& scenarios, const EngineInventory& engines) {
   nlohmann::json json{{"scenarios", nlohmann::json::array()}, {"engines", nlohmann::json::array()}};
@@ -34,7 +69,8 @@ nlohmann::json listing(const ScenarioInventory& scenarios, const EngineInventory
                                {"version", row.info.version},
                                {"precision", row.info.precision == Precision::kSingle ? "single" : "double"},
                                {"dimension", row.info.dimension},
-                               {"scheme", row.info.scheme}});
+                               {"scheme", row.info.scheme},
+                               {"settings", json_of(row.info.settings)}});
   }
   return json;
 }
@@ -59,7 +95,8 @@ void print(const ScenarioInventory& scenarios, const EngineInventory& engines) {
 int list(const ListOptions& options) {
   const Installation installation = find_installation();
   ScenarioInventory scenarios = load_scenarios(installation, options.paths, {}, [](const Scenario&) { return true; });
-  const EngineInventory engines = load_engines(installation);
+  EngineInventory engines = load_engines(installation);
+  select_engines(engines, options.engines);
   const auto selected = name_filter(options.filter);
   for (ScenarioSummary& s : scenarios.summaries) {
     std::erase_if(s.cases, [&](const std::string& name) { return !selected(name); });
@@ -67,6 +104,9 @@ int list(const ListOptions& options) {
   std::erase_if(scenarios.summaries, [](const ScenarioSummary& s) { return s.cases.empty(); });
   if (options.json) {
     fmt::print("{}\n", listing(scenarios, engines).dump(2));
+  } else if (options.settings) {
+    print_settings(engines);
+    return kExitPass;
   } else {
     print(scenarios, engines);
   }
@@ -81,6 +121,10 @@ void add_list_verb(CLI::App& program, Action& action) {
   verb->add_option("paths", options->paths, "Scenario files or folders instead of the built-in catalogue");
   verb->add_option("-f,--filter", options->filter,
                    "Only cases whose name matches this regular expression; -REGEX leaves out");
+  verb->add_option("-e,--engines", options->engines, "Only these engines: bullet-f32, or bullet for all its rows")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb->add_flag("--settings", options->settings, "Show the settings of the engines, which --set changes in a run");
   verb->add_flag("--json", options->json, "Machine-readable: {\"scenarios\": [...], \"engines\": [...]}");
   verb->callback([options, &action] { action = [options] { return list(*options); }; });
 }

@@ -19,6 +19,7 @@
 #include "plumbline/reports/trajectory_csv.hpp"
 #include "selection.hpp"
 #include "usage_error.hpp"
+#include "variants.hpp"
 #include "verbs.hpp"
 
 namespace plumbline {
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct RunOptions {
-  std::vector<std::string> paths, filter, engines, parameters, steps;
+  std::vector<std::string> paths, filter, engines, parameters, settings, steps;
   std::string profile = "both", output = "plumbline-results";
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   double timeout = 30;
@@ -113,6 +114,7 @@ class RunVerb {
       fmt::print(stderr, "note: engine {} is left out: {}\n", m.name, m.reason);
     }
     select_engines(engines_, options_.engines);
+    vary_settings(engines_, parse_settings(options_.settings));
     std::vector<EngineInfo> infos;
     for (const EngineRow& row : engines_.rows) infos.push_back(row.info);
     const auto plan_of = [&](const std::vector<CaseInput>& cases) {
@@ -254,6 +256,10 @@ void add_run_verb(CLI::App& program, Action& action) {
       ->check(CLI::IsMember({"default", "matched", "both"}))
       ->capture_default_str();
   verb->add_option("-P,--parameter", o->parameters, "NAME=VALUE[,VALUE...]: set or sweep a scenario parameter")
+      ->allow_extra_args(false);
+  verb->add_option(
+          "--set", o->settings,
+          "ENGINE.OPTION=VALUE[,VALUE...]: set or sweep an engine's setting; plumbline list --settings shows them")
       ->allow_extra_args(false);
   verb->add_option("--dt", o->steps, "Time steps [s] instead of the scenario's: 0.02,1/240")
       ->delimiter(',')

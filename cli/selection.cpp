@@ -10,9 +10,6 @@
 #include "usage_error.hpp"
 
 namespace plumbline {
-namespace {
-
-// A decimal number or a fraction of two; NaN when it is neither.
 double parse_number(std::string_view text) {
   const auto decimal = [](std::string_view t) {
     double value = 0;
@@ -23,8 +20,6 @@ double parse_number(std::string_view text) {
   if (slash == std::string_view::npos) return decimal(text);
   return decimal(text.substr(0, slash)) / decimal(text.substr(slash + 1));
 }
-
-}  // namespace
 
 double parse_step(std::string_view text) {
   const double value = parse_number(text);

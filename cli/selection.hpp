@@ -10,6 +10,9 @@
 
 namespace plumbline {
 
+// A decimal number or a fraction of two; NaN when it is neither.
+double parse_number(std::string_view text);
+
 // "0.02" or "1/240" [s]. Throws UsageError when it is no positive number.
 double parse_step(std::string_view text);
 std::vector<double> parse_steps(const std::vector<std::string>& texts);

@@ -69,8 +69,9 @@ class Campaign {
         continue;
       }
       for (unsigned repetition = 0; repetition < options.repeat; ++repetition) {
-        requests.push_back({engines_[run.engine_index].program, engines_[run.engine_index].info.name, run.profile,
-                            run.dt, &input.scenario, input.text.get(), input.file});
+        const EngineRow& row = engines_[run.engine_index];
+        requests.push_back({row.program, row.worker_name, run.profile, run.dt, &input.scenario, input.text.get(),
+                            input.file, row.changed});
         run_of.push_back(i);
       }
     }
@@ -168,7 +169,7 @@ class Campaign {
     Group& group = group_of(run);
     const bool in_plane = measured_in_plane(input.scenario, engine.info);
     assess(result, {input.scenario, trajectory, group.expected, in_plane}, engine.info, outcome.recording.not_finite_at,
-           {engine.deviations, deviations_must_apply_});
+           {engine.deviations, deviations_must_apply_ && engine.changed.empty()});
     if (!outcome.recording.not_finite_at && trajectory.samples() != group.expected.samples()) {
       result.verdict = Verdict::kError;
       result.reason =

@@ -29,7 +29,8 @@ Frame run_frame(const RunRequest& request, std::size_t id) {
                   {"dt", request.dt},
                   {"parameters", parameters},
                   {"scenario", *request.text},
-                  {"file", request.file}}}};
+                  {"file", request.file},
+                  {"settings", to_json(request.changed)}}}};
   return frame;
 }
 

@@ -52,7 +52,8 @@ Frame answer_run(const json& params, const std::vector<std::unique_ptr<Engine>>&
   Parameters parameters;
   for (const auto& [name, value] : params.at("parameters").items()) parameters.emplace_back(name, value);
   const Scenario scenario = source(params.at("scenario"), params.at("file"), parameters);
-  const Settings settings = settings_of(engine.info(), profile);
+  Settings settings = settings_of(engine.info(), profile);
+  for (const auto& [name, value] : settings_from_json(params.value("settings", json::object()))) settings[name] = value;
   const Recording recording = record(engine, scenario, settings, params.at("dt"));
 
   Frame frame;

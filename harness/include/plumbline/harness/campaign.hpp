@@ -32,6 +32,8 @@ struct EngineRow {
   EngineInfo info;
   std::size_t program = 0;
   std::vector<Deviation> deviations;
+  std::string worker_name = info.name;  // what the worker calls it: info.name unless settings were changed
+  Settings changed = {};                // these, over those of the profile
 };
 
 // Fills report.runs (in plan order), report.convergence and report.divergence. When `stop` is set the runs that

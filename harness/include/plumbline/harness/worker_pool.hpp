@@ -32,6 +32,7 @@ struct RunRequest {
   const Scenario* scenario = nullptr;  // outlives the pool's run()
   const std::string* text = nullptr;
   std::string file;
+  Settings changed = {};  // over those of the profile
 };
 
 struct WorkerProgram {
