@@ -244,5 +244,25 @@ TEST_F(Cli, CtrlCKeepsWhatThereIs) {
   EXPECT_EQ(results.at("runs").size(), 1u);
 }
 
+TEST_F(Cli, SweepsAnEnginesSettingAsRowsOfTheirOwn) {
+  const Outcome o = with_fakes("run -q -e fake-honest -f falling_box --dt 0.02 --profile matched "
+                               "--set fake.damping=0.25,1/2 -o out");
+  ASSERT_EQ(o.code, kExitPass) << o.out << o.err;
+  const auto results = nlohmann::json::parse(text_of(folder_ / "out/results.json"));
+  ASSERT_EQ(results.at("runs").size(), 2U);
+  EXPECT_EQ(results["runs"][0]["engine"], "fake-honest@damping=0.25");
+  EXPECT_EQ(results["runs"][0]["settings"]["damping"], 0.25);  // as the worker says it applied it
+  EXPECT_EQ(results["runs"][1]["engine"], "fake-honest@damping=1/2");
+  EXPECT_EQ(results["runs"][1]["settings"]["damping"], 0.5);
+  EXPECT_TRUE(fs::exists(folder_ / "out" / results["runs"][1]["trajectory"].get<std::string>()));
+}
+
+TEST_F(Cli, ListsTheSettingsThatCanBeChanged) {
+  const Outcome o = with_fakes("list --settings -e fake-honest");
+  EXPECT_EQ(o.code, kExitPass);
+  EXPECT_NE(o.out.find("fake-honest.damping = 0.1, matched 0  [1/s]\n      not used by fakes"), std::string::npos)
+      << o.out;
+}
+
 }  // namespace
 }  // namespace plumbline

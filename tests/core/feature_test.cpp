@@ -46,6 +46,53 @@ TEST(Needs, DoNotAskForContactOfBodiesThatNeverMove) {
   EXPECT_TRUE(needs(s).empty()) << needs(s).describe();
 }
 
+Scenario two_boxes() {
+  Scenario s = free_flight(crate(), Vec3(0, 0, -kG), 1);
+  s.bodies.push_back(crate());
+  s.bodies[1].name = "other";
+  s.bodies[1].initial.p_WB = Vec3(2, 0, 2);
+  return s;
+}
+
+Joint joint_of(const Scenario& s, JointKind kind, std::size_t a, std::size_t b, const Vec3& anchor, const Vec3& axis) {
+  return joint_at(kind, a, b, {s.bodies[0].initial, s.bodies[1].initial}, anchor, axis);
+}
+
+TEST(Needs, FollowFromJointsAndTheLoopsTheyClose) {
+  Scenario s = two_boxes();
+  s.joints = {joint_of(s, JointKind::kHinge, kWorld, 0, Vec3(0, 0, 3), Vec3::UnitY())};
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kHinge}));
+  s.joints.push_back(joint_of(s, JointKind::kBall, 0, 1, Vec3(1, 0, 2), Vec3::UnitZ()));
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kHinge, Feature::kBallJoint}));
+  // Two bodies tied to each other and both to the world: a loop over the world.
+  s.joints.push_back(joint_of(s, JointKind::kSlider, kWorld, 1, Vec3(2, 0, 2), Vec3::UnitX()));
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kHinge, Feature::kBallJoint, Feature::kSlider, Feature::kJointLoop}));
+}
+
+TEST(Needs, NameContactBesideJointsAndNotThatOfTiedBodies) {
+  Scenario s = two_boxes();
+  s.contact = ContactMaterial{};
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kBoxBox}));
+  s.joints = {joint_of(s, JointKind::kFixed, 1, 0, Vec3(1, 0, 2), Vec3::UnitZ())};
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kFixedJoint, Feature::kJointsAndContact}));
+}
+
+TEST(PlaneOfJoints, IsLeftByAxesAndPullsBesideIt) {
+  const auto reason = [](JointKind kind, const Vec3& anchor, const Vec3& axis) {
+    Scenario s = two_boxes();
+    s.joints = {joint_of(s, kind, kWorld, 0, anchor, axis)};
+    s.joints[0].name = "j";
+    return planar_view(s).reason;
+  };
+  EXPECT_EQ(reason(JointKind::kHinge, Vec3(0, 1, 3), Vec3(0, -2, 0)), "");
+  EXPECT_EQ(reason(JointKind::kHinge, Vec3(0, 0, 3), Vec3(0, 1, 1e-3)), "the axis of the hinge j is not y");
+  EXPECT_EQ(reason(JointKind::kSlider, Vec3(0, 0, 3), Vec3(1, 0, 1)), "");
+  EXPECT_EQ(reason(JointKind::kSlider, Vec3(0, 0, 3), Vec3(1, 1e-3, 1)), "the slider j leaves the plane");
+  EXPECT_EQ(reason(JointKind::kBall, Vec3(0, 0, 3), Vec3::UnitZ()), "");
+  EXPECT_EQ(reason(JointKind::kBall, Vec3(0, 0.1, 3), Vec3::UnitZ()), "the joint j pulls beside the plane of its body");
+  EXPECT_EQ(reason(JointKind::kFixed, Vec3(0, 0.1, 3), Vec3::UnitZ()), "");
+}
+
 TEST(FeatureSets, SubtractAndDescribe) {
   const FeatureSet need({Feature::kFriction, Feature::kBoxBox}), have({Feature::kFriction});
   EXPECT_EQ(need.without(have).describe(), "contact of a box with a box");

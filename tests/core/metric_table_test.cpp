@@ -28,6 +28,7 @@ class MetricTable : public ::testing::Test {
     scenario.bodies[1].mass = 2;
     scenario.bodies[1].shape = Sphere{1};
     scenario.bodies[1].inertia = Vec3(2, 2, 4);
+    scenario.joints = {joint_at(JointKind::kBall, kWorld, 1, {BodyState(), BodyState()}, Vec3::Zero())};
     for (int k = 0; k < 3; ++k) {
       actual.append();
       expected.append();
@@ -87,6 +88,12 @@ TEST_F(MetricTable, EachMetricHasItsHandComputedValue) {
       EXPECT_TRUE(by_hand.count(std::string(metric.name)) == 1) << metric.name;
     }
   }
+}
+
+TEST_F(MetricTable, JointGapIsHowFarTheAnchorsArePartedAtMost) {
+  EXPECT_EQ(measure("joint_gap.max"), 4);  // of the gap (3, 0, -4) the largest component along an axis of W
+  scenario.joints.clear();
+  EXPECT_FALSE(find_metric("joint_gap.max")->applies(scenario));
 }
 
 TEST_F(MetricTable, IsZeroForTheReferenceItself) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "plumbline/core/invariant.hpp"
+#include "plumbline/core/joints/constrained_motion.hpp"
 #include "plumbline/scenarios/scenario_file.hpp"
 
 namespace plumbline {
@@ -44,18 +45,42 @@ double reach(const Scenario& s) {
   return largest + s.gravity.norm() * s.duration * s.duration;
 }
 
-// Acceleration that gravity and the force laws give a body in the state of the reference.
+// Coulomb's law for a body that lies on the ground from the start: the ground bears what presses, friction answers what
+// pulls along it.
+Vec3 with_ground(const Case& c, const BodyState& state, const Vec3& a) {
+  const Vec3 n = std::get<HalfSpace>(c.scenario.bodies[0].shape).normal;
+  const Vec3 pull = a - n * n.dot(a);
+  const double limit = -c.scenario.contact->friction * n.dot(a);
+  if (state.v_WB.norm() > 0) return pull - limit * state.v_WB.normalized();
+  return pull.norm() <= limit ? Vec3(Vec3::Zero()) : Vec3(pull - limit * pull.normalized());
+}
+
+// Acceleration that gravity, the force laws, the joints and the ground give a body in the state of the reference.
 Vec3 acceleration(const Case& c, std::size_t body, double t) {
+  if (!c.scenario.joints.empty()) {
+    return constrained_accelerations(articulated_body(c.scenario), states_at(c, t)).accelerations[body].linear;
+  }
   Vec3 a = c.scenario.gravity;
   for (const ForceLaw& law : c.scenario.forces) {
     if (law.body == body) a += law.evaluate(t, c.reference->at(body, t)).f_W / c.scenario.bodies[body].mass;
   }
-  return a;
+  const bool lies_from_the_start = c.scenario.contact && c.scenario.events.empty();
+  return lies_from_the_start ? with_ground(c, c.reference->at(body, t), a) : a;
+}
+
+// dw/dt of the same: zero, but for joints and for the gyroscopic term of a free body.
+Vec3 angular_acceleration_of(const Case& c, std::size_t body, double t) {
+  if (!c.scenario.joints.empty()) {
+    return constrained_accelerations(articulated_body(c.scenario), states_at(c, t)).accelerations[body].angular;
+  }
+  const BodyState s = c.reference->at(body, t);
+  const Mat3 inertia_W = inertia_in_world(c.scenario.bodies[body], s.q_WB);
+  return inertia_W.inverse() * -s.w_WB.cross(inertia_W * s.w_WB);
 }
 
 // Times of free motion: away from events by 2 delta, and before the first event where the bodies stay in contact.
 std::vector<double> free_times(const Scenario& s, double delta) {
-  const bool rests = s.contact && s.contact->restitution == 0 && s.gravity.norm() > 0;
+  const bool rests = s.contact && s.contact->restitution == 0 && s.gravity.norm() > 0 && !s.events.empty();
   std::vector<double> times;
   for (int i = 1; i < 400; ++i) {
     const double t = s.duration * i / 400;
@@ -94,6 +119,15 @@ TEST_P(EveryScenario, SatisfiesItsEquationOfMotion) {
         ASSERT_LE(((after.p_WB - before.p_WB) / (2 * delta) - now.v_WB).norm(), speed_error)
             << s.case_name() << " t = " << t;
         ASSERT_LE(((after.v_WB - before.v_WB) / (2 * delta) - acceleration(c, b, t)).norm(), acceleration_error)
+            << s.case_name() << " t = " << t;
+        // Attitudes and their rates, in units of 1/time_scale: w reaches some 10 of them here, and its third derivative
+        // their cube.
+        const double w_scale = 10 / s.scales.time, turn_error = delta * delta * std::pow(w_scale, 3) + 64 * kU / delta;
+        const Quat turn = after.q_WB * before.q_WB.conjugate();  // by so small an angle that it is twice its vector
+        ASSERT_LE((turn.vec() * std::copysign(1 / delta, turn.w()) - now.w_WB).norm(), turn_error)
+            << s.case_name() << " t = " << t;
+        ASSERT_LE(((after.w_WB - before.w_WB) / (2 * delta) - angular_acceleration_of(c, b, t)).norm(),
+                  turn_error * w_scale)
             << s.case_name() << " t = " << t;
       }
     }

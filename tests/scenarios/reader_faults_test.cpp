@@ -73,7 +73,7 @@ const Fault kFaults[] = {
      "attitude, velocity, angular_velocity"},
     {"UnknownKeyAtTheTop", "duration = 2", "duration = 2\ncolour = 1",
      "f.toml:5:1: /colour: unknown key; allowed here: id, about, source, duration, steps, gravity, parameters, "
-     "derived, scales, contact, body, force, reference, event, gate"},
+     "derived, scales, contact, body, joint, force, reference, event, gate"},
     {"UnknownShape", "{ sphere = 0.5 }", "{ spere = 0.5 }",
      "f.toml:19:11: /body/0/shape/spere: unknown shape; did you mean 'sphere'? write { sphere = r }, { box = [x, y, z] "
      "} or { half_space = [nx, ny, nz] }"},
@@ -157,7 +157,7 @@ ball.vx = "v0*exp(-c*t)"
     {"UnknownComponent", "ball.vx = ", "ball.speed = ",
      "f.toml:32:6: /reference/ball/speed: unknown key; allowed here: x, y, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz"},
     {"UnknownReferenceKind", "\"closed_form\"", "\"guess\"",
-     "f.toml:29:8: /reference/kind: unknown kind 'guess'; known: closed_form"},
+     "f.toml:29:8: /reference/kind: unknown kind 'guess'; known: closed_form, solution"},
     {"ReferenceStartsElsewhere", "\"v0/c*(1 - exp(-c*t))\"", "\"v0/c*(2 - exp(-c*t))\"",
      "f.toml:31:10: /reference/ball/x: ball.x is 6 at t = 0, but the body starts with 0; correct one of them"},
     {"ReferenceEndsInNothing", "\"v0/c*(1 - exp(-c*t))\"", "\"v0*t/(2 - t)\"",
@@ -170,7 +170,8 @@ ball.vx = "v0*exp(-c*t)"
      "f.toml:38:10: /gate/0/metric: unknown metric 'positon.max'; did you mean 'position.max'? known: position.max, "
      "position.rms, position.final, velocity.max, velocity.rms, velocity.final, attitude.max, attitude.rms, "
      "attitude.final, angular_velocity.max, angular_velocity.rms, angular_velocity.final, energy.max, energy.final, "
-     "momentum.max, momentum.final, angular_momentum.max, angular_momentum.final, event_time.max, events.missed"},
+     "momentum.max, momentum.final, angular_momentum.max, angular_momentum.final, event_time.max, events.missed, "
+     "joint_gap.max"},
     {"EventMetricWithoutEvent", "time = 1\n[[gate]]\nmetric = \"position.max\"",
      "time = 3\n[[gate]]\nmetric = \"event_time.max\"",
      "f.toml:38:10: /gate/0/metric: event_time.max means nothing here: there is no event within the duration; add an "
