@@ -84,6 +84,13 @@ std::string out_of_plane(const Scenario& scenario, const Joint& joint) {
   if ((joint.kind == JointKind::kBall || joint.kind == JointKind::kDistance) && beside) {
     return "the joint " + joint.name + " pulls beside the plane of its body";
   }
+  const auto y_of_end = [&](std::size_t body, const Vec3& anchor) {
+    return in_W(body, anchor).y() + (body == kWorld ? 0 : scenario.bodies[body].initial.p_WB.y());
+  };
+  if (joint.kind == JointKind::kDistance &&
+      std::abs(y_of_end(joint.b, joint.on_b.anchor) - y_of_end(joint.a, joint.on_a.anchor)) > kRounding) {
+    return "the rod " + joint.name + " leads out of the plane";
+  }
   return "";
 }
 

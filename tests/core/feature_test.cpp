@@ -164,6 +164,12 @@ TEST(PlanarView, IsSpatialWithTheReason) {
   Scenario beside = on_ground(ball("one", 1, 1, Vec3(0, 0, 2), Vec3::Zero()), 0, 0, 1);
   beside.bodies.push_back(ball("two", 1, 1, Vec3(1, 1, 2), Vec3::Zero()));
   EXPECT_NE(reason(beside).find("two touches others outside"), std::string::npos);
+
+  Scenario rod = free_flight(ball("bob", 1, 1, Vec3(3, 0, 0), Vec3::Zero()), Vec3::Zero(), 1);
+  rod.joints = {rod_between(kWorld, 0, {rod.bodies[0].initial}, Vec3::Zero(), Vec3(3, 0, 0))};
+  EXPECT_EQ(planar_view(rod).planarity, Planarity::kPlanar);
+  rod.joints = {rod_between(kWorld, 0, {rod.bodies[0].initial}, Vec3(0, 4, 0), Vec3(3, 0, 0))};
+  EXPECT_NE(reason(rod).find("leads out of the plane"), std::string::npos);
 }
 
 }  // namespace
