@@ -21,7 +21,7 @@ struct PlanarState {
 PlanarState in_plane(const BodyState& state);
 // Nothing moves along y, nor turns out of the plane.
 BodyState in_space(const PlanarState& state);
-// The engine's torque [N m] of a torque in W.
-inline double planar_torque(const Vec3& tau_W) { return -tau_W.y(); }
+// The engine's torque [N m] of a torque in W; of none +0, which is what nobody's torque is in an engine.
+inline double planar_torque(const Vec3& tau_W) { return 0.0 - tau_W.y(); }
 
 }  // namespace plumbline

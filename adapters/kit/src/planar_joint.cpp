@@ -1,0 +1,35 @@
+#include "plumbline/adapters/planar_joint.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "plumbline/adapters/joint_tree.hpp"
+#include "plumbline/adapters/planar_frame.hpp"
+
+namespace plumbline {
+namespace {
+
+// A vector in body axes, in those that turn with the planar angle alone. The two differ for a ball whose attitude is
+// not a turn about y.
+PlanarVector in_planar_axes(const BodyState& state, const Vec3& v_B) {
+  const Vec3 v_W = state.q_WB * v_B;
+  const double angle = in_plane(state).angle, c = std::cos(angle), s = std::sin(angle);
+  return {c * v_W.x() + s * v_W.z(), c * v_W.z() - s * v_W.x()};
+}
+
+}  // namespace
+
+PlanarJoint planar_joint(const Scenario& scenario, const Joint& joint) {
+  if (joint.range) {
+    throw std::invalid_argument("joint '" + joint.name + "' has a range, which this engine's adapter does not hold");
+  }
+  const BodyState a = initial_state_of(scenario, joint.a), b = initial_state_of(scenario, joint.b);
+  PlanarJoint planar;
+  planar.on_a = in_planar_axes(a, joint.on_a.anchor);
+  planar.on_b = in_planar_axes(b, joint.on_b.anchor);
+  planar.axis = in_planar_axes(a, joint.on_a.axis());
+  planar.turn = in_plane(b).angle - in_plane(a).angle;
+  return planar;
+}
+
+}  // namespace plumbline
