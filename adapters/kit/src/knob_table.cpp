@@ -30,4 +30,11 @@ std::size_t knob_choice(const Settings& settings, const std::string& name, const
   throw std::invalid_argument("setting '" + name + "' must be one of " + known + ", is '" + word + "'");
 }
 
+void require_knob_at_least(const Settings& settings, const std::string& name, double low) {
+  const double value = setting_number(settings, name);
+  if (value >= low && std::isfinite(value)) return;
+  throw std::invalid_argument("setting '" + name + "' must be a finite number, at least " + shortest(low) + ", is " +
+                              shortest(value));
+}
+
 }  // namespace plumbline

@@ -27,6 +27,7 @@ double knob_number(const Settings& settings, const std::string& name);      // n
 int knob_count(const Settings& settings, const std::string& name);          // a whole number from 0 to 1e9
 std::size_t knob_choice(const Settings& settings, const std::string& name,  // the place of the word among `words`
                         const std::vector<std::string>& words);
+void require_knob_at_least(const Settings& settings, const std::string& name, double low);  // and finite
 
 template <typename Knobs>
 class KnobTable {
@@ -54,6 +55,15 @@ class KnobTable {
     return add_row(
         {name, std::move(usual), std::move(matched), "", std::move(meaning)},
         [=](Knobs& knobs, const Settings& s) { knobs.*member = choices[knob_choice(s, name, words)].second; });
+  }
+
+  // Of the number that was added last: finite, and not below that. For engines that end the process over others.
+  KnobTable& at_least(double low) {
+    assign_.back() = [name = rows_.back().name, low, inner = assign_.back()](Knobs& knobs, const Settings& s) {
+      require_knob_at_least(s, name, low);
+      inner(knobs, s);
+    };
+    return *this;
   }
 
   const std::vector<Setting>& rows() const { return rows_; }
