@@ -37,13 +37,18 @@ const KnobTable<Knobs>& knob_table() {
           .add(&Knobs::restitution_threshold, "restitution_threshold", 1, 0, "m/s",
                "slower impacts have e = 0; the scenario states no such threshold")
           .add(&Knobs::linear_damping, "linear_damping", 0, 0, "1/s", "decay rate of the velocity")
+          .at_least(0)
           .add(&Knobs::angular_damping, "angular_damping", 0, 0, "1/s", "decay rate of the angular velocity")
+          .at_least(0)
           .add(&Knobs::polygon_skin, "polygon_skin", double{b2_polygonRadius}, double{b2_linearSlop}, "m",
                "shell around boxes; matched to the penetration that the solver leaves alone")
+          .at_least(0)
           .add(&Knobs::ground_skin, "ground_skin", double{b2_polygonRadius}, 0, "m",
                "shell around the ground: a ball touches that much early")
+          .at_least(0)
           .add(&Knobs::ground_half_length, "ground_half_length", 1000, 1000, "m",
-               "a half-space is an edge that ends here on either side");
+               "a half-space is an edge that ends here on either side")
+          .at_least(0);
   return table;
 }
 
@@ -59,14 +64,14 @@ class Box2dWorld final : public World {
 
   void apply(std::span<const Wrench> wrenches) override {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const b2Vec2 force = vec2(wrenches[i].f_W);
-      const float torque = real(planar_torque(wrenches[i].tau_W));
-      // Box2D takes them, and its broad phase then ends the process at the place that comes of them.
-      if (!force.IsValid() || !std::isfinite(torque)) {
-        throw std::runtime_error("the force or torque on body " + std::to_string(i) + " is not finite");
+      const Vec3 &f = wrenches[i].f_W, &tau = wrenches[i].tau_W;
+      // In single precision, and so that its square is finite too: a speed whose square is not is one of 0 to Box2D.
+      const b2Vec2 acceleration = (bodies_[i]->GetType() == b2_staticBody ? 0 : 1 / bodies_[i]->GetMass()) * vec2(f);
+      if (!f.allFinite() || !tau.allFinite() || !std::isfinite(acceleration.LengthSquared())) {
+        throw std::runtime_error("the force or torque on body " + std::to_string(i) + " is too large or not finite");
       }
-      bodies_[i]->ApplyForceToCenter(force, true);
-      bodies_[i]->ApplyTorque(torque, true);
+      bodies_[i]->ApplyForceToCenter(vec2(f), true);
+      bodies_[i]->ApplyTorque(real(planar_torque(tau)), true);
     }
   }
 
