@@ -14,51 +14,53 @@ namespace {
 
 cpVect vect(const PlanarVector& v) { return cpv(v.x, v.z); }
 
+enum class SliderAnchor { kStated, kBalanced };
+
 struct Knobs {
   int iterations;
   double collision_slop, collision_bias;
   int collision_persistence;
   double joint_bias, damping, sleep_time, idle_speed, ground_half_length, ground_depth, groove_half_length;
+  SliderAnchor slider_anchor;
 };
 
-// Chipmunk's own defaults, whose tenths are those of single precision. The second is the share of an error that is
-// left after a second when a tenth of it goes in each of 60 frames.
-constexpr double kUsualSlop = double{0.1f};
-const double kUsualBias = std::pow(double{1.0f - 0.1f}, 60);
-
 const KnobTable<Knobs>& knob_table() {
+  // Chipmunk's own defaults, whose tenths are those of single precision. The second is the share of an error that is
+  // left after a second when a tenth of it goes in each of 60 frames.
+  const double usual_slop = double{0.1f}, usual_bias = std::pow(double{1.0f - 0.1f}, 60);
   static const KnobTable<Knobs> table =
       KnobTable<Knobs>()
           .add(&Knobs::iterations, "iterations", 10, 50, "",
                "sweeps over contacts and joints in a step; more, so that the contacts of one body agree")
-          .add(&Knobs::collision_slop, "collision_slop", kUsualSlop, 1e-4, "m",
+          .at_least(1)
+          .add(&Knobs::collision_slop, "collision_slop", usual_slop, 1e-4, "m",
                "penetration that is left alone; made for pixels: a body of a metre sinks a tenth of its size")
-          .add(&Knobs::collision_bias, "collision_bias", kUsualBias, kUsualBias, "1",
+          .add(&Knobs::collision_bias, "collision_bias", usual_bias, usual_bias, "1",
                "share of the penetration that is left after a second of correction, by velocities that are forgotten")
+          .at_least(0)
           .add(&Knobs::collision_persistence, "collision_persistence", 3, 3, "",
                "steps that lost contacts are kept for")
-          .add(&Knobs::joint_bias, "joint_bias", kUsualBias, kUsualBias, "1",
+          .add(&Knobs::joint_bias, "joint_bias", usual_bias, usual_bias, "1",
                "share of a joint's error that is left after a second of correction, by real velocity")
+          .at_least(0)
           .add(&Knobs::damping, "damping", 1, 1, "1", "share of the velocity that is left after a second")
+          .at_least(0)
           .add(&Knobs::sleep_time, "sleep_time", INFINITY, INFINITY, "s", "bodies that were idle that long are stopped")
           .add(&Knobs::idle_speed, "idle_speed", 0, 0, "m/s", "slower counts as idle; 0: Chipmunk's guess by gravity")
           .add(&Knobs::ground_half_length, "ground_half_length", 1000, 1000, "m",
                "a half-space is a slab that ends here on either side")
+          .at_least(0)
           .add(&Knobs::ground_depth, "ground_depth", 1000, 1000, "m", "and this deep below its surface")
+          .at_least(0)
           .add(&Knobs::groove_half_length, "groove_half_length", 1000, 1000, "m",
-               "a slider is a groove that ends here on either side of a's anchor");
+               "a slider is a groove that ends here on either side")
+          .at_least(0)
+          .choose(&Knobs::slider_anchor, "slider_anchor",
+                  {{"stated", SliderAnchor::kStated}, {"balanced", SliderAnchor::kBalanced}}, "stated", "balanced",
+                  "where the pin is in the groove: Chipmunk finds the impulse of a pin that cannot slide and drops the "
+                  "part along the groove, which is right only where the two parts do not turn the bodies alike; "
+                  "balanced: in a groove through a's centre of mass, abreast of b's");
   return table;
-}
-
-// Chipmunk's own checks of these would end the process.
-Knobs read_knobs(const Settings& settings) {
-  const Knobs knobs = knob_table().read(settings);
-  const auto refuse = [](const char* what) { throw std::invalid_argument(std::string("setting '") + what); };
-  if (knobs.iterations < 1) refuse("iterations' must be at least 1");
-  if (!(knobs.damping >= 0)) refuse("damping' must be at least 0");
-  if (!(knobs.collision_bias >= 0)) refuse("collision_bias' must be at least 0");
-  if (!(knobs.joint_bias >= 0)) refuse("joint_bias' must be at least 0");
-  return knobs;
 }
 
 struct Free {
@@ -104,14 +106,13 @@ class ChipmunkWorld final : public World {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       cpBody* body = bodies_[i].get();
       if (cpBodyGetType(body) != CP_BODY_TYPE_DYNAMIC) continue;
-      const Vec3& f = wrenches[i].f_W;
-      const double torque = planar_torque(wrenches[i].tau_W);
+      const Vec3 &f = wrenches[i].f_W, &tau = wrenches[i].tau_W;
       // Chipmunk's own check would end the process.
-      if (!std::isfinite(f.x()) || !std::isfinite(f.z()) || !std::isfinite(torque)) {
+      if (!f.allFinite() || !tau.allFinite()) {
         throw std::runtime_error("the force or torque on body " + std::to_string(i) + " is not finite");
       }
       cpBodySetForce(body, cpv(f.x(), f.z()));
-      cpBodySetTorque(body, torque);
+      cpBodySetTorque(body, planar_torque(tau));
     }
   }
 
@@ -163,12 +164,10 @@ class ChipmunkWorld final : public World {
       case JointKind::kHinge:
         hold(cpPivotJointNew2(a, b, on_a, on_b));
         break;
-      case JointKind::kSlider: {
-        const cpVect reach = cpvmult(vect(planar.axis), knobs_.groove_half_length);
-        hold(cpGrooveJointNew(a, b, cpvsub(on_a, reach), cpvadd(on_a, reach), on_b));
+      case JointKind::kSlider:
+        hold(make_groove(a, b, on_a, vect(planar.axis), on_b));
         hold(cpGearJointNew(a, b, planar.turn, 1));
         break;
-      }
       case JointKind::kFixed:
         hold(cpPivotJointNew2(a, b, on_a, on_b));
         hold(cpGearJointNew(a, b, planar.turn, 1));
@@ -177,6 +176,19 @@ class ChipmunkWorld final : public World {
         cpPinJointSetDist(hold(cpPinJointNew(a, b, on_a, on_b)), joint.length);
         break;
     }
+  }
+
+  // A slider's bodies do not turn against each other, so the groove may lie beside the stated line, if the pin does
+  // too.
+  cpConstraint* make_groove(cpBody* a, cpBody* b, cpVect on_a, cpVect axis, cpVect on_b) const {
+    if (knobs_.slider_anchor == SliderAnchor::kBalanced) {
+      const cpVect axis_W = cpvrotate(axis, cpBodyGetRotation(a));
+      const cpVect p_AB_W = cpvsub(cpBodyGetPosition(b), cpBodyGetPosition(a));
+      on_a = cpvzero;
+      on_b = cpvunrotate(cpvsub(cpvproject(p_AB_W, axis_W), p_AB_W), cpBodyGetRotation(b));
+    }
+    const cpVect reach = cpvmult(axis, knobs_.groove_half_length);
+    return cpGrooveJointNew(a, b, cpvsub(on_a, reach), cpvadd(on_a, reach), on_b);
   }
 
   cpConstraint* hold(cpConstraint* constraint) {
@@ -215,7 +227,7 @@ class ChipmunkEngine final : public Engine {
   const EngineInfo& info() const override { return info_; }
 
   std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
-    return std::make_unique<ChipmunkWorld>(scenario, read_knobs(settings));
+    return std::make_unique<ChipmunkWorld>(scenario, knob_table().read(settings));
   }
 
  private:
