@@ -14,14 +14,14 @@ namespace {
 
 cpVect vect(const PlanarVector& v) { return cpv(v.x, v.z); }
 
-enum class SliderAnchor { kStated, kBalanced };
+enum class Anchors { kStated, kBalanced };
 
 struct Knobs {
   int iterations;
   double collision_slop, collision_bias;
   int collision_persistence;
   double joint_bias, damping, sleep_time, idle_speed, ground_half_length, ground_depth, groove_half_length;
-  SliderAnchor slider_anchor;
+  Anchors anchors;
 };
 
 const KnobTable<Knobs>& knob_table() {
@@ -55,11 +55,12 @@ const KnobTable<Knobs>& knob_table() {
           .add(&Knobs::groove_half_length, "groove_half_length", 1000, 1000, "m",
                "a slider is a groove that ends here on either side")
           .at_least(0)
-          .choose(&Knobs::slider_anchor, "slider_anchor",
-                  {{"stated", SliderAnchor::kStated}, {"balanced", SliderAnchor::kBalanced}}, "stated", "balanced",
-                  "where the pin is in the groove: Chipmunk finds the impulse of a pin that cannot slide and drops the "
-                  "part along the groove, which is right only where the two parts do not turn the bodies alike; "
-                  "balanced: in a groove through a's centre of mass, abreast of b's");
+          .choose(
+              &Knobs::anchors, "anchors", {{"stated", Anchors::kStated}, {"balanced", Anchors::kBalanced}}, "stated",
+              "balanced",
+              "where sliders and fixed joints are pinned. A groove finds the impulse of a pin that cannot slide and "
+              "drops the part along itself, which is right only where neither part turns a body as the other does; "
+              "sweeps agree at once where a pin's impulse does not turn the bodies against each other");
   return table;
 }
 
@@ -169,7 +170,7 @@ class ChipmunkWorld final : public World {
         hold(cpGearJointNew(a, b, planar.turn, 1));
         break;
       case JointKind::kFixed:
-        hold(cpPivotJointNew2(a, b, on_a, on_b));
+        hold(make_weld(a, b, on_a, on_b));
         hold(cpGearJointNew(a, b, planar.turn, 1));
         break;
       case JointKind::kDistance:
@@ -178,10 +179,10 @@ class ChipmunkWorld final : public World {
     }
   }
 
-  // A slider's bodies do not turn against each other, so the groove may lie beside the stated line, if the pin does
-  // too.
+  // Bodies that do not turn against each other may be pinned beside the stated points: in a groove through a's centre
+  // of mass, with the pin abreast of b's; and where the inverse moments balance.
   cpConstraint* make_groove(cpBody* a, cpBody* b, cpVect on_a, cpVect axis, cpVect on_b) const {
-    if (knobs_.slider_anchor == SliderAnchor::kBalanced) {
+    if (knobs_.anchors == Anchors::kBalanced) {
       const cpVect axis_W = cpvrotate(axis, cpBodyGetRotation(a));
       const cpVect p_AB_W = cpvsub(cpBodyGetPosition(b), cpBodyGetPosition(a));
       on_a = cpvzero;
@@ -189,6 +190,15 @@ class ChipmunkWorld final : public World {
     }
     const cpVect reach = cpvmult(axis, knobs_.groove_half_length);
     return cpGrooveJointNew(a, b, cpvsub(on_a, reach), cpvadd(on_a, reach), on_b);
+  }
+  cpConstraint* make_weld(cpBody* a, cpBody* b, cpVect on_a, cpVect on_b) const {
+    if (knobs_.anchors == Anchors::kBalanced) {
+      const double of_a = 1 / cpBodyGetMoment(a), of_b = 1 / cpBodyGetMoment(b);  // of what never turns: 0
+      const cpVect p_AB_W = cpvsub(cpBodyGetPosition(b), cpBodyGetPosition(a));
+      on_a = cpvunrotate(cpvmult(p_AB_W, of_b / (of_a + of_b)), cpBodyGetRotation(a));
+      on_b = cpvunrotate(cpvmult(p_AB_W, -of_a / (of_a + of_b)), cpBodyGetRotation(b));
+    }
+    return cpPivotJointNew2(a, b, on_a, on_b);
   }
 
   cpConstraint* hold(cpConstraint* constraint) {
