@@ -73,6 +73,10 @@ TEST(KnobTable, RefusesWhatAKnobDoesNotTake) {
   for (const double value : {0.5, -1.0, 2e9, std::nan("")}) {
     EXPECT_NE(refusal("iterations", value).find("whole number"), std::string::npos) << value;
   }
+  for (const double value : {0.4, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_NE(refusal("stiffness", value).find("'stiffness' must be a finite number, at least 0.5"), std::string::npos);
+  }
+  EXPECT_EQ(refusal("stiffness", 0.5), "");
   EXPECT_EQ(refusal("sleeping", std::string("yes")), "setting 'sleeping' must be true or false");
   EXPECT_EQ(refusal("law", std::string("box")), "setting 'law' must be one of cone, pyramid, is 'box'");
 }
