@@ -78,6 +78,7 @@ TEST_F(MetricTable, EachMetricHasItsHandComputedValue) {
       {"momentum.final", 0.5},
       {"angular_momentum.max", 11.0 / 8},
       {"angular_momentum.final", std::sqrt(5.0) / 8},
+      {"joint_gap.max", 4},
   };
   for (const auto& [name, value] : by_hand) {
     ASSERT_NE(find_metric(name), nullptr) << name;
