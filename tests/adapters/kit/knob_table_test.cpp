@@ -16,6 +16,7 @@ struct Knobs {
   int iterations;
   bool sleeping;
   Law law;
+  double stiffness;
 };
 
 const KnobTable<Knobs>& table() {
@@ -24,8 +25,9 @@ const KnobTable<Knobs>& table() {
           .add(&Knobs::erp, "erp", 0.2, 0.4, "1", "share of the penetration that a step corrects")
           .add(&Knobs::iterations, "iterations", 10, 50, "", "sweeps")
           .add(&Knobs::sleeping, "sleeping", true, false, "", "stops slow bodies")
-          .choose(&Knobs::law, "law", {{"cone", Law::kCone}, {"pyramid", Law::kPyramid}}, "pyramid", "cone",
-                  "friction");
+          .choose(&Knobs::law, "law", {{"cone", Law::kCone}, {"pyramid", Law::kPyramid}}, "pyramid", "cone", "friction")
+          .add(&Knobs::stiffness, "stiffness", 2, 3, "N/m", "how hard")
+          .at_least(0.5);
   return kTable;
 }
 
@@ -59,7 +61,7 @@ TEST(KnobTable, ReadsTheValuesOfEitherProfileIntoTheAdaptersOwnStruct) {
 }
 
 TEST(KnobTable, TellsPeopleEverythingOnce) {
-  ASSERT_EQ(table().rows().size(), 4U);
+  ASSERT_EQ(table().rows().size(), 5U);
   EXPECT_EQ(table().rows()[0].unit, "1");
   EXPECT_EQ(std::get<double>(table().rows()[1].matched_value), 50);
   EXPECT_EQ(std::get<std::string>(table().rows()[3].default_value), "pyramid");
