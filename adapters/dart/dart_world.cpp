@@ -21,7 +21,6 @@
 #include <dart/dynamics/RevoluteJoint.hpp>
 #include <dart/dynamics/Skeleton.hpp>
 #include <dart/dynamics/SphereShape.hpp>
-#include <dart/dynamics/TranslationalJoint.hpp>
 #include <dart/dynamics/WeldJoint.hpp>
 #include <dart/simulation/World.hpp>
 #include <stdexcept>
@@ -42,7 +41,6 @@ Eigen::Isometry3d pose(const Vec3& p, const Quat& q) {
 }
 
 Eigen::Isometry3d pose(const BodyState& s) { return pose(s.p_WB, s.q_WB); }
-Eigen::Isometry3d pose(const JointFrame& f) { return pose(f.anchor, f.attitude); }
 
 // The last solver that a step asks. DART takes an answer that is not a number for zero impulses, and goes on.
 class LastSolver final : public dc::BoxedLcpSolver {
@@ -173,26 +171,26 @@ class DartWorld final : public World {
       if (j.range) throw std::invalid_argument("joint '" + j.name + "': the adapter of DART has no joint limits");
       dd::BodyNode* parent = j.a == kWorld ? nullptr : nodes_[j.a];
       const dd::SkeletonPtr skeleton = parent == nullptr ? new_skeleton() : parent->getSkeleton();
-      // The coordinate is 0 in the starting pose, whatever the stated frames say about x.
+      // The joint's frame has the axes of B, and its coordinate is 0 in the starting pose.
+      const Eigen::Isometry3d X_BJ(Eigen::Translation3d(j.on_b.anchor));
       const auto attach = [&]<typename Kind>(std::type_identity<Kind>) {
         const auto [joint, node] = skeleton->createJointAndBodyNodePair<Kind>(parent);
         const Eigen::Isometry3d X_AW = pose(initial_state_of(scenario_, j.a)).inverse();
-        joint->setTransformFromParentBodyNode(X_AW * pose(initial) * pose(j.on_b));
-        joint->setTransformFromChildBodyNode(pose(j.on_b));
+        joint->setTransformFromParentBodyNode(X_AW * pose(initial) * X_BJ);
+        joint->setTransformFromChildBodyNode(X_BJ);
         nodes_[link.body] = node;
         return joint;
       };
       if (j.kind == JointKind::kHinge) {
         const auto joint = attach(std::type_identity<dd::RevoluteJoint>());
-        joint->setAxis(Vec3::UnitZ());
+        joint->setAxis(j.on_b.axis());
         joint->setVelocity(0, initial_rate(scenario_, j));
       } else if (j.kind == JointKind::kSlider) {
         const auto joint = attach(std::type_identity<dd::PrismaticJoint>());
-        joint->setAxis(Vec3::UnitZ());
+        joint->setAxis(j.on_b.axis());
         joint->setVelocity(0, initial_rate(scenario_, j));
       } else if (j.kind == JointKind::kBall) {
-        const Vec3 w_AB_B = initial_relative_rotation(scenario_, j);
-        attach(std::type_identity<dd::BallJoint>())->setVelocities(j.on_b.attitude.conjugate() * w_AB_B);
+        attach(std::type_identity<dd::BallJoint>())->setVelocities(initial_relative_rotation(scenario_, j));
       } else {
         attach(std::type_identity<dd::WeldJoint>());
       }
@@ -206,21 +204,10 @@ class DartWorld final : public World {
   void float_free(std::size_t i) {
     const BodyState& initial = scenario_.bodies[i].initial;
     const auto skeleton = new_skeleton();
-    if (knobs_.floating == Floating::kFreeJoint) {
-      const auto [joint, node] = skeleton->createJointAndBodyNodePair<dd::FreeJoint>();
-      joint->setTransform(pose(initial));
-      joint->setLinearVelocity(initial.v_WB);
-      joint->setAngularVelocity(initial.w_WB);
-      nodes_[i] = node;
-      return;
-    }
-    const auto [slide, carrier] = skeleton->createJointAndBodyNodePair<dd::TranslationalJoint>();
-    carrier->setInertia(dd::Inertia(0, Vec3::Zero(), Eigen::Matrix3d::Zero()));
-    slide->setPositions(initial.p_WB);
-    slide->setVelocities(initial.v_WB);
-    const auto [ball, node] = skeleton->createJointAndBodyNodePair<dd::BallJoint>(carrier);
-    ball->setTransformFromParentBodyNode(pose(Vec3::Zero(), initial.q_WB));
-    ball->setVelocities(initial.q_WB.conjugate() * initial.w_WB);
+    const auto [joint, node] = skeleton->createJointAndBodyNodePair<dd::FreeJoint>();
+    joint->setTransform(pose(initial));
+    joint->setLinearVelocity(initial.v_WB);
+    joint->setAngularVelocity(initial.w_WB);
     nodes_[i] = node;
   }
 
@@ -234,7 +221,8 @@ class DartWorld final : public World {
                         : std::make_shared<dc::BallJointConstraint>(nodes_[j.a], nodes_[j.b], p_W));
     };
     if (j.kind == JointKind::kBall) return hold_point(j.on_b.anchor);
-    throw std::invalid_argument("joint '" + j.name + "' closes a loop: the adapter of DART closes loops by ball joints only");
+    throw std::invalid_argument("joint '" + j.name +
+                                "' closes a loop: the adapter of DART closes loops by ball joints only");
   }
 
   void give_shape(std::size_t i) {
@@ -243,7 +231,8 @@ class DartWorld final : public World {
     dd::ShapePtr shape;
     if (const auto* half = std::get_if<HalfSpace>(&body.shape)) {
       if (knobs_.detector == Detector::kFcl) {
-        throw std::invalid_argument("body '" + body.name + "': with 'collision_detector' fcl DART has no half-spaces, " +
+        throw std::invalid_argument("body '" + body.name +
+                                    "': with 'collision_detector' fcl DART has no half-spaces, " +
                                     "only a mesh of limited size; use ode");
       }
       shape = std::make_shared<dd::PlaneShape>(half->normal, half->normal.dot(body.initial.p_WB));

@@ -1,4 +1,5 @@
-// One scenario in a world of DART, apart from the rows: DART's headers are slow to compile, and only one file needs them.
+// One scenario in a world of DART, apart from the rows: DART's headers are slow to compile, and only one file needs
+// them.
 #pragma once
 
 #include <memory>
@@ -8,14 +9,12 @@
 namespace plumbline {
 
 enum class LcpSolver { kDantzig, kPgs };
-enum class Floating { kFreeJoint, kTranslationAndBall };
 enum class Detector { kOde, kFcl };
 enum class FrictionAxis { kFixed, kMotion };
 
 struct DartKnobs {
   LcpSolver solver = LcpSolver::kDantzig;
   Detector detector;
-  Floating floating;
   FrictionAxis friction_axis;
   double error_reduction, max_error_reduction_velocity;
   bool correct_within_gravity_step;
