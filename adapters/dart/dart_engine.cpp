@@ -36,9 +36,10 @@ KnobTable<DartKnobs> knob_table(LcpSolver solver) {
       .add(&K::loop_error_reduction, "loop_error_reduction", 0.01, 0.2, "1",
            "share of the gap that a step closes in joints that close a loop");
   if (solver == LcpSolver::kDantzig) {
-    return table.add(&K::pgs_fallback, "pgs_fallback", true, true, "", "asks the PGS solver where Dantzig's fails");
+    table.add(&K::pgs_fallback, "pgs_fallback", true, true, "", "asks the PGS solver where Dantzig's fails");
   }
-  return table.add(&K::pgs_iterations, "pgs_iterations", 30, 1000, "", "sweeps over the contacts of a step, at most")
+  return table
+      .add(&K::pgs_iterations, "pgs_iterations", 30, 1000, "", "sweeps of PGS over the constraints of a step, at most")
       .add(&K::pgs_absolute_change, "pgs_absolute_change", 1e-6, 1e-14, "N s", "a smaller change ends the sweeps")
       .add(&K::pgs_relative_change, "pgs_relative_change", 1e-3, 1e-12, "1",
            "a smaller change, as a share of the impulse, ends the sweeps");
@@ -69,6 +70,8 @@ class DartEngine final : public Engine {
                       Feature::kBoxHalfSpace, Feature::kBoxBox,     Feature::kRestitution,
                       Feature::kFriction,     Feature::kBallJoint,  Feature::kHinge,
                       Feature::kSlider,       Feature::kFixedJoint, Feature::kJointsAndContact};
+    // Dantzig's solver gives wrong answers to what a hinge that closes a loop says twice, without noticing.
+    if (solver == LcpSolver::kPgs) info_.features.insert(Feature::kJointLoop);
     info_.settings = knobs_.rows();
   }
 

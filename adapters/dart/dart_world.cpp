@@ -82,10 +82,9 @@ class DartWorld final : public World {
     for (const TreeLink& link : tree.links) hang(link);
     for (std::size_t k : tree.left_over) close_loop(scenario.joints[k]);
     for (const Joint& joint : scenario.joints) {
+      if (joint.range) throw std::invalid_argument("joint '" + joint.name + "': this adapter has no limits of joints");
       if (joint.a != kWorld) filter_->addBodyNodePairToBlackList(nodes_[joint.a], nodes_[joint.b]);
     }
-    // Only now: a world asks for collisions among the bodies that a skeleton has when it is added.
-    for (const auto& skeleton : skeletons_) world_->addSkeleton(skeleton);
   }
 
   void apply(std::span<const Wrench> wrenches) override {
@@ -108,7 +107,8 @@ class DartWorld final : public World {
     if (knobs_.friction_axis == FrictionAxis::kMotion) align_friction();
     world_->step();
     if (world_->getLastCollisionResult().getNumContacts() >= max_contacts_) {
-      throw std::runtime_error("the step dropped contacts: DART keeps at most " + std::to_string(max_contacts_));
+      throw std::runtime_error("the step may have dropped contacts: DART keeps at most " +
+                               std::to_string(max_contacts_));
     }
   }
 
@@ -129,26 +129,24 @@ class DartWorld final : public World {
  private:
   std::unique_ptr<dc::ConstraintSolver> constraint_solver() const {
     const auto pgs = std::make_shared<dc::PgsBoxedLcpSolver>();
-    if (knobs_.solver == LcpSolver::kPgs) {
-      dc::PgsBoxedLcpSolver::Option option = pgs->getOption();
-      option.mMaxIteration = knobs_.pgs_iterations;
-      option.mDeltaXThreshold = knobs_.pgs_absolute_change;
-      option.mRelativeDeltaXTolerance = knobs_.pgs_relative_change;
-      pgs->setOption(option);
-      return std::make_unique<dc::BoxedLcpConstraintSolver>(std::make_shared<LastSolver>(pgs), nullptr);
-    }
+    dc::PgsBoxedLcpSolver::Option option = pgs->getOption();
+    option.mMaxIteration = knobs_.pgs_iterations;
+    option.mDeltaXThreshold = knobs_.pgs_absolute_change;
+    option.mRelativeDeltaXTolerance = knobs_.pgs_relative_change;
+    pgs->setOption(option);
+    const auto last = std::make_shared<LastSolver>(pgs);
+    if (knobs_.solver == LcpSolver::kPgs) return std::make_unique<dc::BoxedLcpConstraintSolver>(last, nullptr);
     const auto dantzig = std::make_shared<dc::DantzigBoxedLcpSolver>();
-    if (!knobs_.pgs_fallback) {
-      return std::make_unique<dc::BoxedLcpConstraintSolver>(std::make_shared<LastSolver>(dantzig), nullptr);
-    }
-    return std::make_unique<dc::BoxedLcpConstraintSolver>(dantzig, std::make_shared<LastSolver>(pgs));
+    if (knobs_.pgs_fallback) return std::make_unique<dc::BoxedLcpConstraintSolver>(dantzig, last);
+    return std::make_unique<dc::BoxedLcpConstraintSolver>(std::make_shared<LastSolver>(dantzig), nullptr);
   }
 
   dd::SkeletonPtr new_skeleton() {
-    skeletons_.push_back(dd::Skeleton::create("group " + std::to_string(skeletons_.size())));
-    skeletons_.back()->enableSelfCollisionCheck();
-    skeletons_.back()->enableAdjacentBodyCheck();  // who is exempt is the filter's business
-    return skeletons_.back();
+    const auto skeleton = dd::Skeleton::create("group");
+    skeleton->enableSelfCollisionCheck();
+    skeleton->enableAdjacentBodyCheck();  // who is exempt is the filter's business
+    world_->addSkeleton(skeleton);
+    return skeleton;
   }
 
   void fix(std::size_t i) {
@@ -168,7 +166,6 @@ class DartWorld final : public World {
       float_free(link.body);
     } else {
       const Joint& j = *link.joint;
-      if (j.range) throw std::invalid_argument("joint '" + j.name + "': the adapter of DART has no joint limits");
       dd::BodyNode* parent = j.a == kWorld ? nullptr : nodes_[j.a];
       const dd::SkeletonPtr skeleton = parent == nullptr ? new_skeleton() : parent->getSkeleton();
       // The joint's frame has the axes of B, and its coordinate is 0 in the starting pose.
@@ -212,7 +209,6 @@ class DartWorld final : public World {
   }
 
   void close_loop(const Joint& j) {
-    if (j.range) throw std::invalid_argument("joint '" + j.name + "': the adapter of DART has no joint limits");
     const BodyState b = scenario_.bodies[j.b].initial;
     const auto hold_point = [&](const Vec3& p_B) {
       const Vec3 p_W = b.p_WB + b.q_WB * p_B;
@@ -221,8 +217,18 @@ class DartWorld final : public World {
                         : std::make_shared<dc::BallJointConstraint>(nodes_[j.a], nodes_[j.b], p_W));
     };
     if (j.kind == JointKind::kBall) return hold_point(j.on_b.anchor);
-    throw std::invalid_argument("joint '" + j.name +
-                                "' closes a loop: the adapter of DART closes loops by ball joints only");
+    if (j.kind == JointKind::kHinge) {
+      hold_point(j.on_b.anchor - j.on_b.axis());
+      return hold_point(j.on_b.anchor + j.on_b.axis());
+    }
+    if (j.kind == JointKind::kFixed) {
+      world_->getConstraintSolver()->addConstraint(
+          j.a == kWorld ? std::make_shared<dc::WeldJointConstraint>(nodes_[j.b])
+                        : std::make_shared<dc::WeldJointConstraint>(nodes_[j.a], nodes_[j.b]));
+      return;
+    }
+    throw std::invalid_argument("joint '" + j.name + "' closes a loop, for which DART has no slider: state it before " +
+                                "the other joints of the loop, so that one of those closes it");
   }
 
   void give_shape(std::size_t i) {
@@ -273,7 +279,6 @@ class DartWorld final : public World {
   dart::simulation::WorldPtr world_ = dart::simulation::World::create();
   std::shared_ptr<dart::collision::BodyNodeCollisionFilter> filter_ =
       std::make_shared<dart::collision::BodyNodeCollisionFilter>();
-  std::vector<dd::SkeletonPtr> skeletons_;
   std::vector<dd::BodyNode*> nodes_;  // in scenario order
   std::size_t max_contacts_ = 0;
 };

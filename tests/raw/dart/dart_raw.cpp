@@ -42,15 +42,16 @@ struct Request {
 class Simulation {
  public:
   explicit Simulation(const Request& request) : request_(request) {
-    if (request.row == "dart-pgs") {
-      auto pgs = std::make_shared<constraint::PgsBoxedLcpSolver>();
-      auto option = pgs->getOption();
-      option.mMaxIteration = request.matched() ? 1000 : 30;
-      option.mDeltaXThreshold = request.matched() ? 1e-14 : 1e-6;
-      option.mRelativeDeltaXTolerance = request.matched() ? 1e-12 : 1e-3;
-      pgs->setOption(option);
-      world_->setConstraintSolver(std::make_unique<constraint::BoxedLcpConstraintSolver>(pgs, nullptr));
-    }
+    auto pgs = std::make_shared<constraint::PgsBoxedLcpSolver>();
+    auto option = pgs->getOption();
+    option.mMaxIteration = request.matched() ? 1000 : 30;
+    option.mDeltaXThreshold = request.matched() ? 1e-14 : 1e-6;
+    option.mRelativeDeltaXTolerance = request.matched() ? 1e-12 : 1e-3;
+    pgs->setOption(option);
+    auto dantzig = std::make_shared<constraint::DantzigBoxedLcpSolver>();
+    using Solver = constraint::BoxedLcpConstraintSolver;
+    world_->setConstraintSolver(request.row == "dart-pgs" ? std::make_unique<Solver>(pgs, nullptr)
+                                                          : std::make_unique<Solver>(dantzig, pgs));
     world_->getConstraintSolver()->setCollisionDetector(dart::collision::OdeCollisionDetector::create());
     world_->setGravity(Vector3d::Zero());
     world_->setTimeStep(request.dt);
