@@ -1,0 +1,160 @@
+// Row simbody-compliant: contacts are springs and dampers at the surfaces, and an integrator with error control takes
+// as many steps within a step as its accuracy needs.
+#include "simbody_model.hpp"
+
+#include <simbody/internal/CompliantContactSubsystem.h>
+#include <simbody/internal/ContactSurface.h>
+#include <simbody/internal/ContactTrackerSubsystem.h>
+#include <simmath/CPodesIntegrator.h>
+#include <simmath/RungeKuttaMersonIntegrator.h>
+#include <simmath/TimeStepper.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "plumbline/adapters/knob_table.hpp"
+#include "simbody_rows.hpp"
+
+namespace plumbline {
+namespace {
+
+enum class Method { kMerson, kCPodes };
+
+struct Knobs {
+  Method integrator;
+  double accuracy, constraint_tolerance;
+  double stiffness, dissipation, transition_speed;
+};
+
+const KnobTable<Knobs>& knob_table() {
+  static const KnobTable<Knobs> table =
+      KnobTable<Knobs>()
+          .choose(&Knobs::integrator, "integrator", {{"merson", Method::kMerson}, {"cpodes", Method::kCPodes}},
+                  "merson", "merson",
+                  "merson: explicit Runge-Kutta of order 4 with error control; cpodes: implicit multistep")
+          .add(&Knobs::accuracy, "accuracy", 1e-3, 1e-9, "1", "relative error that one step of the integrator may make")
+          .add(&Knobs::constraint_tolerance, "constraint_tolerance", 1e-4, 1e-10, "m, rad, m/s and rad/s",
+               "how far joints that are held by constraints may be off before they are projected back")
+          .add(&Knobs::stiffness, "stiffness", 1e7, 1e7, "Pa", "of the surfaces")
+          .add(&Knobs::dissipation, "dissipation", 1.0, 1e4, "s/m", "of the surfaces")
+          .add(&Knobs::transition_speed, "friction_transition_speed", 0.01, 1e-4, "m/s",
+               "slower sliding has less friction");
+  return table;
+}
+
+class CompliantWorld final : public World {
+ public:
+  CompliantWorld(const Scenario& scenario, const Knobs& knobs)
+      : model_(scenario), tracker_(model_.system()), contact_(model_.system(), tracker_) {
+    model_.close_loops(scenario);
+    contact_.setTransitionVelocity(knobs.transition_speed);
+    if (scenario.contact) add_surfaces(scenario, knobs);
+    const SimTK::State start = model_.begin(scenario);
+    if (knobs.integrator == Method::kMerson) {
+      integrator_ = std::make_unique<SimTK::RungeKuttaMersonIntegrator>(model_.system());
+    } else {
+      integrator_ = std::make_unique<SimTK::CPodesIntegrator>(model_.system());
+    }
+    integrator_->setAccuracy(knobs.accuracy);
+    integrator_->setConstraintTolerance(knobs.constraint_tolerance);
+    stepper_.emplace(model_.system(), *integrator_);
+    stepper_->initialize(start);
+    still_.resize(scenario.bodies.size());
+  }
+
+  void apply(std::span<const Wrench> wrenches) override { push(wrenches, true); }
+
+  void step(double dt) override {
+    if (!(dt > 0 && std::isfinite(dt))) throw std::invalid_argument("the step must be > 0 s, is " + shortest(dt));
+    const double end = integrator_->getTime() + dt;
+    stepper_->stepTo(end);
+    if (integrator_->getTime() != end) throw std::runtime_error("the integrator stopped before the end of the step");
+    if (pushed_) push(still_, false);  // Simbody keeps forces until they are changed
+  }
+
+  void read(std::span<BodyState> states) const override { model_.read(integrator_->getState(), states); }
+
+ private:
+  void push(std::span<const Wrench> wrenches, bool pushed) {
+    model_.apply(integrator_->updAdvancedState(), wrenches);
+    // The integrator would go on with the accelerations of the forces before.
+    integrator_->reinitialize(SimTK::Stage::Dynamics, false);
+    model_.system().realize(integrator_->getState(), SimTK::Stage::Velocity);
+    pushed_ = pushed;
+  }
+
+  void add_surfaces(const Scenario& scenario, const Knobs& knobs) {
+    const double mu = scenario.contact->friction;
+    const SimTK::ContactMaterial material(knobs.stiffness, knobs.dissipation, mu, mu);
+    std::vector<SimTK::ContactSurface> surfaces;
+    for (const Body& body : scenario.bodies) surfaces.emplace_back(geometry(body.shape), material);
+    // Surfaces of one clique do not touch.
+    for (const Joint& joint : scenario.joints) {
+      if (joint.a == kWorld) continue;
+      const SimTK::ContactCliqueId clique = SimTK::ContactSurface::createNewContactClique();
+      surfaces[joint.a].joinClique(clique);
+      surfaces[joint.b].joinClique(clique);
+    }
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      model_.body(i).updBody().addContactSurface(place(scenario.bodies[i]), surfaces[i]);
+    }
+  }
+
+  static SimTK::ContactGeometry geometry(const Shape& shape) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return SimTK::ContactGeometry::Sphere(sphere->radius);
+    if (const auto* box = std::get_if<Box>(&shape))
+      return SimTK::ContactGeometry::Brick(simbody_vector(0.5 * box->size));
+    return SimTK::ContactGeometry::HalfSpace();
+  }
+
+  // Where the surface sits in the axes of its mobilized body: a fixed one is part of the ground.
+  static SimTK::Transform place(const Body& body) {
+    if (!body.fixed) return {};
+    const SimTK::Vec3 p = simbody_vector(body.initial.p_WB);
+    if (const auto* half = std::get_if<HalfSpace>(&body.shape)) {
+      // Simbody's half-space is where its own x is positive.
+      return {SimTK::Rotation(SimTK::UnitVec3(simbody_vector(-half->normal)), SimTK::XAxis), p};
+    }
+    return {simbody_rotation(body.initial.q_WB), p};
+  }
+
+  SimbodyModel model_;
+  SimTK::ContactTrackerSubsystem tracker_;
+  SimTK::CompliantContactSubsystem contact_;
+  std::unique_ptr<SimTK::Integrator> integrator_;
+  std::optional<SimTK::TimeStepper> stepper_;
+  std::vector<Wrench> still_;  // no force on anything
+  bool pushed_ = false;
+};
+
+class CompliantEngine final : public Engine {
+ public:
+  CompliantEngine() {
+    info_.name = "simbody-compliant";
+    info_.library = "Simbody";
+    info_.version = simbody_version();
+    info_.scheme = "Runge-Kutta-Merson with error control within each step";
+    info_.features = {Feature::kSpatial,      Feature::kForce,           Feature::kTorque,
+                      Feature::kSphereSphere, Feature::kSphereHalfSpace, Feature::kBoxHalfSpace,
+                      Feature::kFriction,     Feature::kBallJoint,       Feature::kHinge,
+                      Feature::kSlider,       Feature::kFixedJoint,      Feature::kDistanceJoint,
+                      Feature::kJointLoop,    Feature::kJointsAndContact};
+    info_.settings = knob_table().rows();
+  }
+
+  const EngineInfo& info() const override { return info_; }
+
+  std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
+    return std::make_unique<CompliantWorld>(scenario, knob_table().read(settings));
+  }
+
+ private:
+  EngineInfo info_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_simbody_compliant() { return std::make_unique<CompliantEngine>(); }
+
+}  // namespace plumbline

@@ -1,0 +1,159 @@
+#include "simbody_model.hpp"
+
+#include <simbody/internal/Constraint_Ball.h>
+#include <simbody/internal/Constraint_BuiltIns.h>
+#include <simbody/internal/Constraint_Rod.h>
+#include <simbody/internal/Constraint_Weld.h>
+
+#include <stdexcept>
+
+#include "plumbline/adapters/joint_tree.hpp"
+
+namespace plumbline {
+namespace {
+
+Vec3 vec3(const SimTK::Vec3& v) { return {v[0], v[1], v[2]}; }
+
+// Simbody's slider travels along x where ours does along z. About y by -90 degrees: x falls on z, exactly.
+SimTK::Rotation slider_axes() { return SimTK::Rotation(SimTK::Mat33(0, 0, -1, 0, 1, 0, 1, 0, 0), true); }
+
+SimTK::Transform joint_frame(const Joint& joint, const JointFrame& frame) {
+  const SimTK::Rotation R = simbody_rotation(frame.attitude);
+  return {joint.kind == JointKind::kSlider ? R * slider_axes() : R, simbody_vector(frame.anchor)};
+}
+
+SimTK::Transform pose(const BodyState& s) { return {simbody_rotation(s.q_WB), simbody_vector(s.p_WB)}; }
+
+SimTK::MobilizedBodyIndex hang(SimTK::MobilizedBody& parent, const SimTK::Body& body, const Joint& joint) {
+  const SimTK::Transform X_PF = joint_frame(joint, joint.on_a), X_BM = joint_frame(joint, joint.on_b);
+  switch (joint.kind) {
+    case JointKind::kBall:
+      return SimTK::MobilizedBody::Ball(parent, X_PF, body, X_BM);
+    case JointKind::kHinge:
+      return SimTK::MobilizedBody::Pin(parent, X_PF, body, X_BM);
+    case JointKind::kSlider:
+      return SimTK::MobilizedBody::Slider(parent, X_PF, body, X_BM);
+    case JointKind::kFixed:
+      return SimTK::MobilizedBody::Weld(parent, X_PF, body, X_BM);
+    case JointKind::kDistance:
+      break;
+  }
+  throw std::logic_error("a distance joint stands in the tree of joints");
+}
+
+// Velocity of the joint's frame on b seen from that on a, in a's frame: (angular, linear).
+SimTK::SpatialVec initial_velocity(const Scenario& scenario, const Joint& joint) {
+  const BodyState a = initial_state_of(scenario, joint.a), b = initial_state_of(scenario, joint.b);
+  const Vec3 anchor_W = b.p_WB + b.q_WB * joint.on_b.anchor;
+  const Vec3 v_W = b.v_WB + b.w_WB.cross(anchor_W - b.p_WB) - a.v_WB - a.w_WB.cross(anchor_W - a.p_WB);
+  const SimTK::Rotation R_WF = pose(a).R() * joint_frame(joint, joint.on_a).R();
+  return {~R_WF * simbody_vector(b.w_WB - a.w_WB), ~R_WF * simbody_vector(v_W)};
+}
+
+}  // namespace
+
+SimTK::Rotation simbody_rotation(const Quat& q) {
+  return SimTK::Rotation(SimTK::Quaternion(q.w(), q.x(), q.y(), q.z()));
+}
+
+std::string simbody_version() {
+  int major = 0, minor = 0, build = 0;
+  SimTK_version_simbody(&major, &minor, &build);
+  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(build);
+}
+
+SimbodyModel::SimbodyModel(const Scenario& scenario)
+    : bodies_(scenario.bodies.size(), SimTK::MobilizedBodyIndex(0)), fixed_(scenario.bodies.size()) {
+  SimTK::Force::UniformGravity(forces_, matter_, simbody_vector(scenario.gravity));
+  for (const Joint& joint : scenario.joints) {
+    if (joint.range) throw std::invalid_argument("joint '" + joint.name + "' has a range: this adapter knows none");
+  }
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+    fixed_[i].p_WB = scenario.bodies[i].initial.p_WB;
+    fixed_[i].q_WB = scenario.bodies[i].initial.q_WB;
+  }
+  for (const TreeLink& link : joint_tree(scenario).links) {
+    const Body& body = scenario.bodies[link.body];
+    const SimTK::Body::Rigid rigid(
+        SimTK::MassProperties(body.mass, SimTK::Vec3(0), SimTK::Inertia(simbody_vector(body.inertia))));
+    if (link.joint) {
+      const std::size_t a = link.joint->a;
+      bodies_[link.body] = hang(a == kWorld ? matter_.updGround() : this->body(a), rigid, *link.joint);
+    } else {
+      bodies_[link.body] = SimTK::MobilizedBody::Free(matter_.updGround(), rigid);
+    }
+  }
+}
+
+void SimbodyModel::close_loops(const Scenario& scenario) {
+  for (const std::size_t k : joint_tree(scenario).left_over) {
+    const Joint& joint = scenario.joints[k];
+    SimTK::MobilizedBody& a = joint.a == kWorld ? matter_.updGround() : body(joint.a);
+    SimTK::MobilizedBody& b = body(joint.b);
+    const SimTK::Transform X_A = joint_frame(joint, joint.on_a), X_B = joint_frame(joint, joint.on_b);
+    const SimTK::UnitVec3 x_A = X_A.x(), y_A = X_A.y(), z_B = X_B.z();
+    switch (joint.kind) {
+      case JointKind::kDistance:
+        SimTK::Constraint::Rod(a, X_A.p(), b, X_B.p(), joint.length);
+        break;
+      case JointKind::kFixed:
+        SimTK::Constraint::Weld(a, X_A, b, X_B);
+        break;
+      case JointKind::kSlider:  // b's anchor stays on a's line, which is x here
+        SimTK::Constraint::PointOnLine(a, x_A, X_A.p(), b, X_B.p());
+        SimTK::Constraint::ConstantOrientation(a, X_A.R(), b, X_B.R());
+        break;
+      case JointKind::kHinge:
+        SimTK::Constraint::ConstantAngle(a, x_A, b, z_B);
+        SimTK::Constraint::ConstantAngle(a, y_A, b, z_B);
+        [[fallthrough]];
+      case JointKind::kBall:
+        SimTK::Constraint::Ball(a, X_A.p(), b, X_B.p());
+        break;
+    }
+  }
+}
+
+SimTK::State SimbodyModel::begin(const Scenario& scenario) {
+  SimTK::State state = system_.realizeTopology();
+  system_.realizeModel(state);
+  for (const TreeLink& link : joint_tree(scenario).links) {
+    const SimTK::MobilizedBody& mobod = body(link.body);
+    const BodyState& s = scenario.bodies[link.body].initial;
+    if (link.joint) {
+      const SimTK::Transform X_WF =
+          pose(initial_state_of(scenario, link.joint->a)) * joint_frame(*link.joint, link.joint->on_a);
+      mobod.setQToFitTransform(state, ~X_WF * pose(s) * joint_frame(*link.joint, link.joint->on_b));
+      mobod.setUToFitVelocity(state, initial_velocity(scenario, *link.joint));
+    } else {
+      mobod.setQToFitTransform(state, pose(s));
+      mobod.setUToFitVelocity(state, {simbody_vector(s.w_WB), simbody_vector(s.v_WB)});
+    }
+  }
+  return state;
+}
+
+void SimbodyModel::apply(SimTK::State& state, std::span<const Wrench> wrenches) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (is_fixed(i)) continue;
+    wrenches_.setOneBodyForce(state, matter_.getMobilizedBody(bodies_[i]),
+                              {simbody_vector(wrenches[i].tau_W), simbody_vector(wrenches[i].f_W)});
+  }
+}
+
+void SimbodyModel::read(const SimTK::State& state, std::span<BodyState> states) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (is_fixed(i)) {
+      states[i] = fixed_[i];
+      continue;
+    }
+    const SimTK::MobilizedBody& mobod = matter_.getMobilizedBody(bodies_[i]);
+    const SimTK::Quaternion q = mobod.getBodyRotation(state).convertRotationToQuaternion();
+    states[i].p_WB = vec3(mobod.getBodyOriginLocation(state));
+    states[i].q_WB = Quat(q[0], q[1], q[2], q[3]);
+    states[i].v_WB = vec3(mobod.getBodyOriginVelocity(state));
+    states[i].w_WB = vec3(mobod.getBodyAngularVelocity(state));
+  }
+}
+
+}  // namespace plumbline

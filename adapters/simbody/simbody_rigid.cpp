@@ -1,0 +1,189 @@
+// Row simbody-rigid: contacts are inequalities between positions, solved as impulses once a step.
+#include "simbody_model.hpp"
+
+#include <simbody/internal/ConditionalConstraint.h>
+#include <simbody/internal/PGSImpulseSolver.h>
+#include <simbody/internal/PLUSImpulseSolver.h>
+#include <simbody/internal/SemiExplicitEulerTimeStepper.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "plumbline/adapters/knob_table.hpp"
+#include "simbody_rows.hpp"
+
+namespace plumbline {
+namespace {
+
+using Stepper = SimTK::SemiExplicitEulerTimeStepper;
+
+struct Knobs {
+  Stepper::ImpulseSolverType solver;
+  double solver_tolerance;
+  int solver_iterations;
+  Stepper::RestitutionModel restitution;
+  Stepper::InducedImpactModel induced_impacts;
+  int induced_impact_rounds;
+  Stepper::PositionProjectionMethod projection;
+  double constraint_tolerance, capture_speed, min_restitution_speed, transition_speed;
+};
+
+const KnobTable<Knobs>& knob_table() {
+  static const KnobTable<Knobs> table =
+      KnobTable<Knobs>()
+          .choose(&Knobs::solver, "impulse_solver", {{"plus", Stepper::PLUS}, {"pgs", Stepper::PGS}}, "plus", "pgs",
+                  "plus: Newton's method on all contacts at once, which can take sliding for sticking; pgs: projected "
+                  "Gauss-Seidel")
+          .add(&Knobs::solver_tolerance, "solver_tolerance", 1e-10, 1e-12, "m/s",
+               "speed that the solver may leave across a contact (Simbody's own: plus 1e-10, pgs 1e-6)")
+          .add(&Knobs::solver_iterations, "solver_iterations", 20, 1000, "",
+               "sweeps or Newton steps of the solver at most (Simbody's own: plus 20, pgs 100)")
+          .choose(&Knobs::restitution, "restitution_model",
+                  {{"poisson", Stepper::Poisson}, {"newton", Stepper::Newton}, {"none", Stepper::NoRestitution}},
+                  "poisson", "newton", "e as a ratio of impulses or, as scenarios state it, of velocities")
+          .choose(
+              &Knobs::induced_impacts, "induced_impacts",
+              {{"simultaneous", Stepper::Simultaneous}, {"sequential", Stepper::Sequential}, {"mixed", Stepper::Mixed}},
+              "simultaneous", "simultaneous", "whether contacts that are hit together answer together")
+          .add(&Knobs::induced_impact_rounds, "induced_impact_rounds", 5, 5, "",
+               "rounds per step of impacts that are not simultaneous")
+          .choose(&Knobs::projection, "position_projection",
+                  {{"bilateral", Stepper::Bilateral},
+                   {"unilateral", Stepper::Unilateral},
+                   {"none", Stepper::NoPositionProjection}},
+                  "bilateral", "bilateral", "how a step takes penetration back")
+          .add(&Knobs::constraint_tolerance, "constraint_tolerance", 1e-3, 1e-9, "m and m/s",
+               "distance at which bodies count as touching, and twice it the least impact speed with a rebound")
+          .add(&Knobs::capture_speed, "impact_capture_speed", 0.0, 0.0, "m/s",
+               "slower impacts have e = 0; at least twice the constraint tolerance")
+          .add(&Knobs::min_restitution_speed, "impact_min_restitution_speed", 0.0, 0.0, "m/s",
+               "between the capture speed and this one e falls from 1 to its stated value")
+          .add(&Knobs::transition_speed, "friction_transition_speed", 0.0, 0.0, "m/s",
+               "slower sliding may stick; at least twice the constraint tolerance");
+  return table;
+}
+
+class RigidWorld final : public World {
+ public:
+  RigidWorld(const Scenario& scenario, const Knobs& knobs) : model_(scenario), stepper_(model_.system()) {
+    if (scenario.contact) add_contacts(scenario);
+    stepper_.setConstraintTolerance(knobs.constraint_tolerance);
+    stepper_.setRestitutionModel(knobs.restitution);
+    stepper_.setInducedImpactModel(knobs.induced_impacts);
+    stepper_.setMaxInducedImpactsPerStep(knobs.induced_impact_rounds);
+    stepper_.setPositionProjectionMethod(knobs.projection);
+    stepper_.setDefaultImpactCaptureVelocity(knobs.capture_speed);
+    stepper_.setDefaultImpactMinCORVelocity(knobs.min_restitution_speed);
+    stepper_.setDefaultFrictionTransitionVelocity(knobs.transition_speed);
+    const double rolling_speed = stepper_.getDefaultFrictionTransitionVelocityInUse();
+    std::unique_ptr<SimTK::ImpulseSolver> solver;
+    if (knobs.solver == Stepper::PGS) {
+      solver = std::make_unique<SimTK::PGSImpulseSolver>(rolling_speed);
+    } else {
+      solver = std::make_unique<SimTK::PLUSImpulseSolver>(rolling_speed);
+    }
+    solver->setConvergenceTol(knobs.solver_tolerance);
+    solver->setMaxIterations(knobs.solver_iterations);
+    stepper_.setImpulseSolverType(knobs.solver);
+    stepper_.setImpulseSolver(solver.release());
+    stepper_.initialize(model_.begin(scenario));
+    still_.resize(scenario.bodies.size());
+  }
+
+  void apply(std::span<const Wrench> wrenches) override {
+    model_.apply(stepper_.updState(), wrenches);
+    pushed_ = true;
+  }
+
+  void step(double dt) override {
+    // Going back in time would abort the process.
+    if (!(dt > 0 && std::isfinite(dt))) throw std::invalid_argument("the step must be > 0 s, is " + shortest(dt));
+    stepper_.stepTo(stepper_.getTime() + dt);
+    if (pushed_) model_.apply(stepper_.updState(), still_);  // Simbody keeps forces until they are changed
+    pushed_ = false;
+  }
+
+  void read(std::span<BodyState> states) const override { model_.read(stepper_.getState(), states); }
+
+ private:
+  // There is no search for contacts: every pair that may ever touch is stated.
+  void add_contacts(const Scenario& scenario) {
+    for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+      for (std::size_t j = i + 1; j < scenario.bodies.size(); ++j) {
+        const Body &a = scenario.bodies[i], &b = scenario.bodies[j];
+        if ((a.fixed && b.fixed) || joined(scenario, i, j)) continue;
+        if (std::holds_alternative<HalfSpace>(a.shape)) {
+          add_on_plane(a, j, b, *scenario.contact);
+        } else if (std::holds_alternative<HalfSpace>(b.shape)) {
+          add_on_plane(b, i, a, *scenario.contact);
+        } else {
+          const double e = scenario.contact->restitution, mu = scenario.contact->friction;
+          model_.matter().adoptUnilateralContact(new SimTK::SphereSphereContact(
+              model_.body(i), centre(a), std::get<Sphere>(a.shape).radius, model_.body(j), centre(b),
+              std::get<Sphere>(b.shape).radius, e, mu, mu, 0));
+        }
+      }
+    }
+  }
+
+  // In the axes of the mobilized body: a fixed one is part of the ground.
+  static SimTK::Vec3 centre(const Body& body) {
+    return body.fixed ? simbody_vector(body.initial.p_WB) : SimTK::Vec3(0);
+  }
+
+  void add_on_plane(const Body& plane, std::size_t i, const Body& body, const ContactMaterial& material) {
+    const Vec3& n_W = std::get<HalfSpace>(plane.shape).normal;
+    const SimTK::UnitVec3 n(simbody_vector(n_W));
+    const double height = n_W.dot(plane.initial.p_WB), e = material.restitution, mu = material.friction;
+    SimTK::MobilizedBody &ground = model_.matter().updGround(), &mobod = model_.body(i);
+    if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
+      model_.matter().adoptUnilateralContact(
+          new SimTK::SpherePlaneContact(ground, n, height, mobod, SimTK::Vec3(0), sphere->radius, e, mu, mu, 0));
+      return;
+    }
+    const Vec3 half = 0.5 * std::get<Box>(body.shape).size;
+    for (const double x : {-half.x(), half.x()}) {
+      for (const double y : {-half.y(), half.y()}) {
+        for (const double z : {-half.z(), half.z()}) {
+          model_.matter().adoptUnilateralContact(
+              new SimTK::PointPlaneContact(ground, n, height, mobod, SimTK::Vec3(x, y, z), e, mu, mu, 0));
+        }
+      }
+    }
+  }
+
+  SimbodyModel model_;
+  Stepper stepper_;
+  std::vector<Wrench> still_;  // no force on anything
+  bool pushed_ = false;
+};
+
+class RigidEngine final : public Engine {
+ public:
+  RigidEngine() {
+    info_.name = "simbody-rigid";
+    info_.library = "Simbody";
+    info_.version = simbody_version();
+    info_.scheme = "semi-implicit Euler";
+    info_.features = {Feature::kSpatial,         Feature::kForce,        Feature::kTorque,      Feature::kSphereSphere,
+                      Feature::kSphereHalfSpace, Feature::kBoxHalfSpace, Feature::kRestitution, Feature::kFriction,
+                      Feature::kBallJoint,       Feature::kHinge,        Feature::kSlider,      Feature::kFixedJoint,
+                      Feature::kJointsAndContact};
+    info_.settings = knob_table().rows();
+  }
+
+  const EngineInfo& info() const override { return info_; }
+
+  std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
+    return std::make_unique<RigidWorld>(scenario, knob_table().read(settings));
+  }
+
+ private:
+  EngineInfo info_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_simbody_rigid() { return std::make_unique<RigidEngine>(); }
+
+}  // namespace plumbline
