@@ -22,24 +22,30 @@ namespace {
 enum class Method { kMerson, kCPodes };
 
 struct Knobs {
-  Method integrator;
+  Method integrator, contact_integrator;
   double accuracy, constraint_tolerance;
   double stiffness, dissipation, transition_speed;
 };
 
+const std::vector<std::pair<std::string, Method>> kMethods = {{"merson", Method::kMerson}, {"cpodes", Method::kCPodes}};
+
 const KnobTable<Knobs>& knob_table() {
   static const KnobTable<Knobs> table =
       KnobTable<Knobs>()
-          .choose(&Knobs::integrator, "integrator", {{"merson", Method::kMerson}, {"cpodes", Method::kCPodes}},
-                  "merson", "merson",
+          .choose(&Knobs::integrator, "integrator", kMethods, "merson", "merson",
                   "merson: explicit Runge-Kutta of order 4 with error control; cpodes: implicit multistep")
+          .choose(&Knobs::contact_integrator, "contact_integrator", kMethods, "merson", "cpodes",
+                  "the same for scenarios with contact, which a small e makes stiff")
           .add(&Knobs::accuracy, "accuracy", 1e-3, 1e-9, "1", "relative error that one step of the integrator may make")
           .add(&Knobs::constraint_tolerance, "constraint_tolerance", 1e-4, 1e-10, "m, rad, m/s and rad/s",
                "how far joints that are held by constraints may be off before they are projected back")
-          .add(&Knobs::stiffness, "stiffness", 1e7, 1e7, "Pa", "of the surfaces")
-          .add(&Knobs::dissipation, "dissipation", 1.0, 1e4, "s/m", "of the surfaces")
+          .add(&Knobs::stiffness, "stiffness", 1e7, 1e7, "Pa", "of the surfaces; about that of rubber")
+          .add(&Knobs::dissipation, "dissipation", 1.0, 1e6, "s/m",
+               "Hunt and Crossley's c of the surfaces: slow impacts have e = 1 - c v, fast ones part with less than "
+               "1/c; "
+               "e = 0 means c without bound, and Simbody's own rule (1 - e)/v at 1 m/s gives 1")
           .add(&Knobs::transition_speed, "friction_transition_speed", 0.01, 1e-4, "m/s",
-               "slower sliding has less friction");
+               "slower sliding has less friction: what should stick creeps at up to this speed");
   return table;
 }
 
@@ -51,11 +57,13 @@ class CompliantWorld final : public World {
     contact_.setTransitionVelocity(knobs.transition_speed);
     if (scenario.contact) add_surfaces(scenario, knobs);
     const SimTK::State start = model_.begin(scenario);
-    if (knobs.integrator == Method::kMerson) {
+    if ((scenario.contact ? knobs.contact_integrator : knobs.integrator) == Method::kMerson) {
       integrator_ = std::make_unique<SimTK::RungeKuttaMersonIntegrator>(model_.system());
     } else {
       integrator_ = std::make_unique<SimTK::CPodesIntegrator>(model_.system());
     }
+    // Without this the implicit method runs ahead, over impacts, and interpolates back.
+    integrator_->setAllowInterpolation(false);
     integrator_->setAccuracy(knobs.accuracy);
     integrator_->setConstraintTolerance(knobs.constraint_tolerance);
     stepper_.emplace(model_.system(), *integrator_);

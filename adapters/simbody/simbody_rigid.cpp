@@ -7,6 +7,7 @@
 #include <simbody/internal/SemiExplicitEulerTimeStepper.h>
 
 #include <cmath>
+#include <iostream>
 #include <stdexcept>
 
 #include "plumbline/adapters/knob_table.hpp"
@@ -25,6 +26,7 @@ struct Knobs {
   Stepper::InducedImpactModel induced_impacts;
   int induced_impact_rounds;
   Stepper::PositionProjectionMethod projection;
+  bool project_after_step;
   double constraint_tolerance, capture_speed, min_restitution_speed, transition_speed;
 };
 
@@ -51,7 +53,10 @@ const KnobTable<Knobs>& knob_table() {
                   {{"bilateral", Stepper::Bilateral},
                    {"unilateral", Stepper::Unilateral},
                    {"none", Stepper::NoPositionProjection}},
-                  "bilateral", "bilateral", "how a step takes penetration back")
+                  "bilateral", "bilateral",
+                  "how a step takes penetration back; a library that was built with assertions undoes it")
+          .add(&Knobs::project_after_step, "project_after_step", false, true, "",
+               "takes penetration back once more, by Simbody's own projection of positions")
           .add(&Knobs::constraint_tolerance, "constraint_tolerance", 1e-3, 1e-9, "m and m/s",
                "distance at which bodies count as touching, and twice it the least impact speed with a rebound")
           .add(&Knobs::capture_speed, "impact_capture_speed", 0.0, 0.0, "m/s",
@@ -63,9 +68,22 @@ const KnobTable<Knobs>& knob_table() {
   return table;
 }
 
+// A library with assertions prints its matrices at every step with contact, which takes longer than the step itself.
+class Quiet {
+ public:
+  Quiet() { std::cout.setstate(std::ios::failbit); }
+  ~Quiet() { std::cout.clear(before_); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+ private:
+  std::ios::iostate before_ = std::cout.rdstate();
+};
+
 class RigidWorld final : public World {
  public:
-  RigidWorld(const Scenario& scenario, const Knobs& knobs) : model_(scenario), stepper_(model_.system()) {
+  RigidWorld(const Scenario& scenario, const Knobs& knobs)
+      : model_(scenario), stepper_(model_.system()), project_after_step_(knobs.project_after_step) {
     if (scenario.contact) add_contacts(scenario);
     stepper_.setConstraintTolerance(knobs.constraint_tolerance);
     stepper_.setRestitutionModel(knobs.restitution);
@@ -98,7 +116,11 @@ class RigidWorld final : public World {
   void step(double dt) override {
     // Going back in time would abort the process.
     if (!(dt > 0 && std::isfinite(dt))) throw std::invalid_argument("the step must be > 0 s, is " + shortest(dt));
-    stepper_.stepTo(stepper_.getTime() + dt);
+    {
+      const Quiet quiet;
+      stepper_.stepTo(stepper_.getTime() + dt);
+    }
+    if (project_after_step_) project();
     if (pushed_) model_.apply(stepper_.updState(), still_);  // Simbody keeps forces until they are changed
     pushed_ = false;
   }
@@ -106,16 +128,40 @@ class RigidWorld final : public World {
   void read(std::span<BodyState> states) const override { model_.read(stepper_.getState(), states); }
 
  private:
+  // The step computes a correction of its own, but in a library with assertions (Debian's) a line that prints for
+  // debugging overwrites it before it is used. The step enables the contacts again that it needs.
+  void project() {
+    SimTK::State& state = stepper_.updState();
+    const SimTK::SimbodyMatterSubsystem& matter = model_.matter();
+    std::vector<SimTK::UnilateralContactIndex> apart;
+    bool penetrates = false;
+    for (SimTK::UnilateralContactIndex k(0); k < matter.getNumUnilateralContacts(); ++k) {
+      const SimTK::UnilateralContact& contact = matter.getUnilateralContact(k);
+      if (!contact.isEnabled(state)) continue;
+      if (contact.getPerr(state) < -stepper_.getConstraintToleranceInUse()) {
+        penetrates = true;
+      } else {
+        apart.push_back(k);
+      }
+    }
+    if (!penetrates) return;
+    for (const SimTK::UnilateralContactIndex k : apart) matter.getUnilateralContact(k).disable(state);
+    model_.system().realize(state, SimTK::Stage::Position);
+    model_.system().projectQ(state, stepper_.getConstraintToleranceInUse());
+    model_.system().realize(state, SimTK::Stage::Velocity);
+  }
+
   // There is no search for contacts: every pair that may ever touch is stated.
   void add_contacts(const Scenario& scenario) {
+    for (const Body& body : scenario.bodies) planes_.push_back(surface(body));
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
       for (std::size_t j = i + 1; j < scenario.bodies.size(); ++j) {
         const Body &a = scenario.bodies[i], &b = scenario.bodies[j];
         if ((a.fixed && b.fixed) || joined(scenario, i, j)) continue;
         if (std::holds_alternative<HalfSpace>(a.shape)) {
-          add_on_plane(a, j, b, *scenario.contact);
+          add_on_plane(i, j, b, *scenario.contact);
         } else if (std::holds_alternative<HalfSpace>(b.shape)) {
-          add_on_plane(b, i, a, *scenario.contact);
+          add_on_plane(j, i, a, *scenario.contact);
         } else {
           const double e = scenario.contact->restitution, mu = scenario.contact->friction;
           model_.matter().adoptUnilateralContact(new SimTK::SphereSphereContact(
@@ -131,14 +177,22 @@ class RigidWorld final : public World {
     return body.fixed ? simbody_vector(body.initial.p_WB) : SimTK::Vec3(0);
   }
 
-  void add_on_plane(const Body& plane, std::size_t i, const Body& body, const ContactMaterial& material) {
-    const Vec3& n_W = std::get<HalfSpace>(plane.shape).normal;
-    const SimTK::UnitVec3 n(simbody_vector(n_W));
-    const double height = n_W.dot(plane.initial.p_WB), e = material.restitution, mu = material.friction;
-    SimTK::MobilizedBody &ground = model_.matter().updGround(), &mobod = model_.body(i);
+  // A body without mass at the half-space's own place, since the contacts forget the height of their plane.
+  SimTK::MobilizedBodyIndex surface(const Body& body) {
+    const auto* half = std::get_if<HalfSpace>(&body.shape);
+    if (half == nullptr) return {};
+    const SimTK::Rotation R(SimTK::UnitVec3(simbody_vector(half->normal)), SimTK::ZAxis);
+    return SimTK::MobilizedBody::Weld(model_.matter().updGround(), {R, simbody_vector(body.initial.p_WB)},
+                                      SimTK::Body::Massless(), SimTK::Transform());
+  }
+
+  void add_on_plane(std::size_t plane, std::size_t i, const Body& body, const ContactMaterial& material) {
+    const double e = material.restitution, mu = material.friction;
+    const SimTK::UnitVec3 n(SimTK::ZAxis);
+    SimTK::MobilizedBody &ground = model_.matter().updMobilizedBody(planes_[plane]), &mobod = model_.body(i);
     if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
       model_.matter().adoptUnilateralContact(
-          new SimTK::SpherePlaneContact(ground, n, height, mobod, SimTK::Vec3(0), sphere->radius, e, mu, mu, 0));
+          new SimTK::SpherePlaneContact(ground, n, 0, mobod, SimTK::Vec3(0), sphere->radius, e, mu, mu, 0));
       return;
     }
     const Vec3 half = 0.5 * std::get<Box>(body.shape).size;
@@ -146,14 +200,16 @@ class RigidWorld final : public World {
       for (const double y : {-half.y(), half.y()}) {
         for (const double z : {-half.z(), half.z()}) {
           model_.matter().adoptUnilateralContact(
-              new SimTK::PointPlaneContact(ground, n, height, mobod, SimTK::Vec3(x, y, z), e, mu, mu, 0));
+              new SimTK::PointPlaneContact(ground, n, 0, mobod, SimTK::Vec3(x, y, z), e, mu, mu, 0));
         }
       }
     }
   }
 
   SimbodyModel model_;
+  std::vector<SimTK::MobilizedBodyIndex> planes_;  // of the half-spaces among the bodies
   Stepper stepper_;
+  bool project_after_step_;
   std::vector<Wrench> still_;  // no force on anything
   bool pushed_ = false;
 };
