@@ -5,6 +5,7 @@
 #include <simbody/internal/Constraint_Rod.h>
 #include <simbody/internal/Constraint_Weld.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "plumbline/adapters/joint_tree.hpp"
@@ -86,7 +87,12 @@ SimbodyModel::SimbodyModel(const Scenario& scenario)
 }
 
 void SimbodyModel::close_loops(const Scenario& scenario) {
-  for (const std::size_t k : joint_tree(scenario).left_over) {
+  const std::vector<std::size_t> left_over = joint_tree(scenario).left_over;
+  // A rod may be straight in line with a joint for a moment, so that it seems void: those are never dropped.
+  loops_closed_ = std::none_of(left_over.begin(), left_over.end(),
+                               [&](std::size_t k) { return scenario.joints[k].kind == JointKind::kDistance; }) &&
+                  !left_over.empty();
+  for (const std::size_t k : left_over) {
     const Joint& joint = scenario.joints[k];
     SimTK::MobilizedBody& a = joint.a == kWorld ? matter_.updGround() : body(joint.a);
     SimTK::MobilizedBody& b = body(joint.b);
@@ -130,7 +136,18 @@ SimTK::State SimbodyModel::begin(const Scenario& scenario) {
       mobod.setUToFitVelocity(state, {simbody_vector(s.w_WB), simbody_vector(s.v_WB)});
     }
   }
+  if (loops_closed_) drop_void_constraints(state);
   return state;
+}
+
+void SimbodyModel::drop_void_constraints(SimTK::State& state) const {
+  system_.realize(state, SimTK::Stage::Velocity);
+  SimTK::Matrix G;
+  matter_.calcG(state, G);
+  // Rounding of lengths [m] and of unit axes. What no speed of the tree can violate in one pose holds in all of them.
+  constexpr double kRounding = 1e-12;
+  if (G.nelt() > 0 && G.normRMS() > kRounding) return;
+  for (SimTK::ConstraintIndex k(0); k < matter_.getNumConstraints(); ++k) matter_.getConstraint(k).disable(state);
 }
 
 void SimbodyModel::apply(SimTK::State& state, std::span<const Wrench> wrenches) const {

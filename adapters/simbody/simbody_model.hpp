@@ -44,14 +44,18 @@ class SimbodyModel {
   SimTK::MobilizedBody& body(std::size_t i) { return matter_.updMobilizedBody(bodies_[i]); }
 
  private:
+  bool is_fixed(std::size_t i) const { return int{bodies_[i]} == 0; }
+  // Disables the constraints when all of them only repeat what the tree holds, as the second hinge of a door does:
+  // Simbody finds their forces from a matrix that is nothing but rounding then, and cannot step.
+  void drop_void_constraints(SimTK::State& state) const;
+
   SimTK::MultibodySystem system_;
   SimTK::SimbodyMatterSubsystem matter_{system_};
   SimTK::GeneralForceSubsystem forces_{system_};
   SimTK::Force::DiscreteForces wrenches_{forces_, matter_};
-  bool is_fixed(std::size_t i) const { return int{bodies_[i]} == 0; }
-
   std::vector<SimTK::MobilizedBodyIndex> bodies_;  // 0, the ground, for a body that is fixed
-  std::vector<BodyState> fixed_;                   // what read() says of bodies that never move
+  bool loops_closed_ = false;
+  std::vector<BodyState> fixed_;  // what read() says of bodies that never move
 };
 
 }  // namespace plumbline
