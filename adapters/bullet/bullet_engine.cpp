@@ -1,94 +1,35 @@
 // Bullet behind the door of core/engine.hpp. Compiled twice: btScalar is float or double.
-#include <btBulletDynamicsCommon.h>
-
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 
 #include <stdexcept>
 
+#include "bullet_conversions.hpp"
+#include "bullet_joints.hpp"
+#include "bullet_knobs.hpp"
+#include "bullet_multibody.hpp"
 #include "plumbline/core/engine.hpp"
 
 namespace plumbline {
 namespace {
-
-constexpr bool kIsDouble = sizeof(btScalar) == sizeof(double);
-// Bullet's own default for "never": BT_LARGE_FLOAT, the same in both precisions.
-constexpr double kNever = 1e18;
-
-btScalar real(double x) { return static_cast<btScalar>(x); }
-btVector3 vector(const Vec3& v) { return {real(v.x()), real(v.y()), real(v.z())}; }
-btQuaternion quaternion(const Quat& q) { return {real(q.x()), real(q.y()), real(q.z()), real(q.w())}; }
-Vec3 vec3(const btVector3& v) { return {double{v.x()}, double{v.y()}, double{v.z()}}; }
 
 // Every body carries the coefficients of the pair, so the pair's value is that of either of them; Bullet itself
 // would multiply the two.
 btScalar pair_restitution(const btCollisionObject* a, const btCollisionObject*) { return a->getRestitution(); }
 btScalar pair_friction(const btCollisionObject* a, const btCollisionObject*) { return a->getFriction(); }
 
-int gyroscopic_flags(const std::string& model) {
-  if (model == "none") return 0;
-  if (model == "explicit") return BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT;
-  if (model == "implicit_world") return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD;
-  if (model == "implicit_body") return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
-  throw std::invalid_argument("setting 'gyroscopic' must be none, explicit, implicit_body or implicit_world");
-}
-
-struct Knobs {
-  explicit Knobs(const Settings& s)
-      : sleeping(setting_bool(s, "sleeping")),
-        sleeping_linear_speed(setting_number(s, "sleeping_linear_speed")),
-        sleeping_angular_speed(setting_number(s, "sleeping_angular_speed")),
-        linear_damping(setting_number(s, "linear_damping")),
-        angular_damping(setting_number(s, "angular_damping")),
-        gyroscopic(gyroscopic_flags(setting_text(s, "gyroscopic"))),
-        solver_iterations(static_cast<int>(setting_number(s, "solver_iterations"))),
-        warm_starting(setting_bool(s, "warm_starting")),
-        restitution_threshold(setting_number(s, "restitution_threshold")),
-        split_impulse(setting_bool(s, "split_impulse")),
-        split_impulse_penetration_threshold(setting_number(s, "split_impulse_penetration_threshold")),
-        erp2(setting_number(s, "erp2")),
-        linear_slop(setting_number(s, "linear_slop")),
-        contact_processing_threshold(setting_number(s, "contact_processing_threshold")),
-        plane_contact_iterations(static_cast<int>(setting_number(s, "plane_contact_iterations"))) {}
-
-  bool sleeping;
-  double sleeping_linear_speed, sleeping_angular_speed, linear_damping, angular_damping;
-  int gyroscopic, solver_iterations;
-  bool warm_starting;
-  double restitution_threshold;
-  bool split_impulse;
-  double split_impulse_penetration_threshold, erp2, linear_slop, contact_processing_threshold;
-  int plane_contact_iterations;
-};
-
-std::unique_ptr<btCollisionShape> make_shape(const Body& body) {
-  if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
-    return std::make_unique<btSphereShape>(real(sphere->radius));
-  }
-  if (const auto* box = std::get_if<Box>(&body.shape)) {
-    return std::make_unique<btBoxShape>(vector(0.5 * box->size));
-  }
-  return std::make_unique<btStaticPlaneShape>(vector(std::get<HalfSpace>(body.shape).normal), real(0));
-}
-
 class BulletWorld final : public World {
  public:
-  BulletWorld(const Scenario& scenario, const Knobs& knobs) {
-    if (knobs.plane_contact_iterations > 1) {
-      collision_.setPlaneConvexMultipointIterations(knobs.plane_contact_iterations, knobs.plane_contact_iterations);
-    }
-    btContactSolverInfo& solver = world_.getSolverInfo();
-    solver.m_numIterations = knobs.solver_iterations;
-    solver.m_solverMode = SOLVER_SIMD | (knobs.warm_starting ? SOLVER_USE_WARMSTARTING : 0);
-    solver.m_restitutionVelocityThreshold = real(knobs.restitution_threshold);
-    solver.m_splitImpulse = knobs.split_impulse ? 1 : 0;
-    solver.m_splitImpulsePenetrationThreshold = real(knobs.split_impulse_penetration_threshold);
-    solver.m_erp2 = real(knobs.erp2);
-    solver.m_linearSlop = real(knobs.linear_slop);
+  BulletWorld(const Scenario& scenario, const BulletRigidKnobs& knobs) {
+    set_bullet_solver(knobs, collision_, world_.getSolverInfo());
+    world_.getSolverInfo().m_erp = real(knobs.erp);
+    world_.getSolverInfo().m_globalCfm = real(knobs.cfm);
     world_.setGravity(vector(scenario.gravity));
     for (const Body& body : scenario.bodies) add(body, scenario.contact, knobs);
+    for (const Joint& joint : scenario.joints) add(joint);
   }
 
   ~BulletWorld() override {
+    for (const auto& joint : joints_) world_.removeConstraint(joint.get());
     for (const Resident& r : residents_) world_.removeRigidBody(r.body.get());
   }
 
@@ -100,7 +41,10 @@ class BulletWorld final : public World {
   }
 
   // Zero sub-steps at most means one step of exactly dt. Bullet clears the forces at its end.
-  void step(double dt) override { world_.stepSimulation(real(dt), 0); }
+  void step(double dt) override {
+    if (!(dt > 0)) throw std::invalid_argument("dt must be > 0, is " + shortest(dt));
+    world_.stepSimulation(real(dt), 0);
+  }
 
   void read(std::span<BodyState> states) const override {
     for (std::size_t i = 0; i < residents_.size(); ++i) {
@@ -109,9 +53,8 @@ class BulletWorld final : public World {
         states[i] = residents_[i].fixed;
         continue;
       }
-      const btQuaternion q = body.getWorldTransform().getRotation();
       states[i].p_WB = vec3(body.getWorldTransform().getOrigin());
-      states[i].q_WB = Quat(double{q.w()}, double{q.x()}, double{q.y()}, double{q.z()}).normalized();
+      states[i].q_WB = quat(body.getWorldTransform().getRotation());
       states[i].v_WB = vec3(body.getLinearVelocity());
       states[i].w_WB = vec3(body.getAngularVelocity());
     }
@@ -124,20 +67,15 @@ class BulletWorld final : public World {
     BodyState fixed;  // what read() says of a body that never moves
   };
 
-  void add(const Body& body, const std::optional<ContactMaterial>& contact, const Knobs& knobs) {
+  void add(const Body& body, const std::optional<ContactMaterial>& contact, const BulletRigidKnobs& knobs) {
     const bool half_space = std::holds_alternative<HalfSpace>(body.shape);
     const bool fixed = body.fixed || half_space;
-    if (!fixed && !(body.mass > 0 && body.inertia.minCoeff() > 0)) {
-      throw std::invalid_argument("body '" + body.name + "' moves, so its mass and inertia must be > 0");
-    }
     Resident r;
-    r.shape = make_shape(body);
+    r.shape = bullet_shape(body);
     // Mass 0 is how Bullet says "fixed".
     btRigidBody::btRigidBodyConstructionInfo info(fixed ? real(0) : real(body.mass), nullptr, r.shape.get(),
                                                   fixed ? btVector3(0, 0, 0) : vector(body.inertia));
-    // The normal of a half-space is stated in W, whatever the attitude of its body.
-    const Quat attitude = half_space ? Quat(Quat::Identity()) : body.initial.q_WB;
-    info.m_startWorldTransform = btTransform(quaternion(attitude), vector(body.initial.p_WB));
+    info.m_startWorldTransform = bullet_pose(body);
     info.m_linearDamping = real(knobs.linear_damping);
     info.m_angularDamping = real(knobs.angular_damping);
     info.m_linearSleepingThreshold = real(knobs.sleeping_linear_speed);
@@ -163,71 +101,60 @@ class BulletWorld final : public World {
     residents_.push_back(std::move(r));
   }
 
+  void add(const Joint& joint) {
+    const bool to_world = joint.a == kWorld;
+    btRigidBody& a = to_world ? btTypedConstraint::getFixedBody() : *residents_[joint.a].body;
+    joints_.push_back(bullet_joint(joint, a, *residents_[joint.b].body));
+    // Bullet notes on both bodies that they do not collide. Its fixed body is shared by all worlds and collides with
+    // nothing.
+    world_.addConstraint(joints_.back().get(), !to_world);
+  }
+
   btDefaultCollisionConfiguration collision_;
   btCollisionDispatcher dispatcher_{&collision_};
   btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_};
   std::vector<Resident> residents_;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
 };
-
-std::vector<Setting> setting_table() {
-  return {
-      {"sleeping", true, false, "", "stops bodies that have been slow for 2 s; a force on a sleeping body is lost"},
-      {"sleeping_linear_speed", 0.8, 0.8, "m/s", "slower than this counts as slow"},
-      {"sleeping_angular_speed", 1.0, 1.0, "rad/s", "slower than this counts as slow"},
-      {"linear_damping", 0.0, 0.0, "1", "share of the velocity lost per second"},
-      {"angular_damping", 0.0, 0.0, "1", "share of the angular velocity lost per second"},
-      {"gyroscopic", std::string("implicit_body"), std::string("implicit_body"), "",
-       "how w x I w is integrated: none, explicit, implicit_body, implicit_world"},
-      {"solver_iterations", 10.0, 50.0, "",
-       "sweeps of projected Gauss-Seidel over the contacts in a step; more, so that the contacts of one body agree"},
-      {"warm_starting", true, true, "", "starts from the impulses of the step before"},
-      {"restitution_threshold", 0.2, 0.0, "m/s", "slower impacts have e = 0; the scenario states no such threshold"},
-      {"split_impulse", true, true, "", "corrects penetration with velocities that are forgotten after the step"},
-      {"split_impulse_penetration_threshold", -0.04, 0.0, "m",
-       "shallower penetration is corrected by real velocity: an impact seen at depth d rebounds with e + erp2 d/(v dt) "
-       "instead of e; 0: never"},
-      {"erp2", 0.2, 0.2, "1", "share of the penetration that a step corrects"},
-      {"linear_slop", 0.0, 0.0, "m", "penetration that is left alone"},
-      {"contact_processing_threshold", kNever, 0.0, "m",
-       "contacts farther apart are ignored; above 0 bodies are braked before they touch and do not rebound"},
-      {"plane_contact_iterations", 1.0, 4.0, "",
-       "support points sought per step between a box and a plane; with one a box that lands flat tumbles"},
-  };
-}
 
 class BulletEngine final : public Engine {
  public:
   BulletEngine() {
-    info_.name = kIsDouble ? "bullet-f64" : "bullet-f32";
+    info_.name = kBulletIsDouble ? "bullet-f64" : "bullet-f32";
     info_.library = "Bullet";
     info_.version = std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100);
-    info_.precision = kIsDouble ? Precision::kDouble : Precision::kSingle;
+    info_.precision = kBulletIsDouble ? Precision::kDouble : Precision::kSingle;
     info_.scheme = "semi-implicit Euler";
-    info_.features = {Feature::kSpatial,     Feature::kForce,           Feature::kTorque,       Feature::kSphereSphere,
-                      Feature::kSphereBox,   Feature::kSphereHalfSpace, Feature::kBoxHalfSpace, Feature::kBoxBox,
-                      Feature::kRestitution, Feature::kFriction};
-    info_.settings = setting_table();
+    info_.features = {
+        Feature::kSpatial,     Feature::kForce,           Feature::kTorque,       Feature::kSphereSphere,
+        Feature::kSphereBox,   Feature::kSphereHalfSpace, Feature::kBoxHalfSpace, Feature::kBoxBox,
+        Feature::kRestitution, Feature::kFriction,        Feature::kBallJoint,    Feature::kHinge,
+        Feature::kSlider,      Feature::kFixedJoint,      Feature::kJointLoop,    Feature::kJointsAndContact};
+    info_.settings = knobs_.rows();
   }
 
   const EngineInfo& info() const override { return info_; }
 
   std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
-    gCalculateCombinedRestitutionCallback = pair_restitution;
-    gCalculateCombinedFrictionCallback = pair_friction;
-    return std::make_unique<BulletWorld>(scenario, Knobs(settings));
+    return std::make_unique<BulletWorld>(scenario, knobs_.read(settings));
   }
 
  private:
+  const KnobTable<BulletRigidKnobs> knobs_ = bullet_rigid_knob_table();
   EngineInfo info_;
 };
 
 }  // namespace
 
 std::vector<std::unique_ptr<Engine>> make_engines() {
+  gCalculateCombinedRestitutionCallback = pair_restitution;
+  gCalculateCombinedFrictionCallback = pair_friction;
   std::vector<std::unique_ptr<Engine>> engines;
   engines.push_back(std::make_unique<BulletEngine>());
+  // Trees of joints are for double precision.
+  if constexpr (kBulletIsDouble) engines.push_back(make_bullet_multibody());
   return engines;
 }
 

@@ -2,63 +2,36 @@
 #include <ode/ode.h>
 
 #include <algorithm>
+#include <cstdarg>
+#include <cstdio>
 #include <stdexcept>
 
+#include "ode_joints.hpp"
+#include "ode_knobs.hpp"
 #include "plumbline/core/engine.hpp"
 
 namespace plumbline {
 namespace {
-
-enum class Solver { kStep, kQuickStep };
-enum class FrictionModel { kForceLimit, kPyramid, kAlignedPyramid };
 
 constexpr int kMaxContactsPerPair = 8;  // box on box, the most of all pairs here
 constexpr unsigned long kSeed = 1;
 
 Vec3 vec3(const dReal* v) { return {v[0], v[1], v[2]}; }
 
-FrictionModel friction_model(const std::string& name) {
-  if (name == "force_limit") return FrictionModel::kForceLimit;
-  if (name == "pyramid") return FrictionModel::kPyramid;
-  if (name == "aligned_pyramid") return FrictionModel::kAlignedPyramid;
-  throw std::invalid_argument("setting 'friction_model' must be force_limit, pyramid or aligned_pyramid");
+// ODE says on standard error when a solver has failed, and goes on with whatever forces it has. A run that goes on from
+// there would be a wrong one, so what is said is kept and thrown.
+thread_local std::string complaint;
+
+void keep_message(int number, const char* format, va_list arguments) {
+  char text[256];
+  std::vsnprintf(text, sizeof text, format, arguments);
+  if (complaint.empty()) complaint = "ODE message " + std::to_string(number) + ": " + text;
 }
-
-struct Knobs {
-  Knobs(const Settings& s, Solver which)
-      : solver(which),
-        erp(setting_number(s, "erp")),
-        cfm(setting_number(s, "cfm")),
-        max_correcting_velocity(setting_number(s, "max_correcting_velocity")),
-        correct_within_gravity_step(setting_bool(s, "correct_within_gravity_step")),
-        surface_layer(setting_number(s, "surface_layer")),
-        bounce_threshold(setting_number(s, "bounce_threshold")),
-        friction(friction_model(setting_text(s, "friction_model"))),
-        auto_disable(setting_bool(s, "auto_disable")),
-        linear_damping(setting_number(s, "linear_damping")),
-        angular_damping(setting_number(s, "angular_damping")),
-        gyroscopic(setting_bool(s, "gyroscopic")) {
-    if (solver == Solver::kStep) return;
-    iterations = static_cast<int>(setting_number(s, "quickstep_iterations"));
-    over_relaxation = setting_number(s, "quickstep_over_relaxation");
-  }
-
-  Solver solver;
-  double erp, cfm, max_correcting_velocity;
-  bool correct_within_gravity_step;
-  double surface_layer, bounce_threshold;
-  FrictionModel friction;
-  bool auto_disable;
-  double linear_damping, angular_damping;
-  bool gyroscopic;
-  int iterations = 0;
-  double over_relaxation = 0;
-};
 
 class OdeWorld final : public World {
  public:
-  OdeWorld(const Scenario& scenario, const Knobs& knobs)
-      : knobs_(knobs), gravity_(scenario.gravity.norm()), contact_(scenario.contact) {
+  OdeWorld(const Scenario& scenario, const OdeKnobs& knobs, OdeSolver solver)
+      : knobs_(knobs), solver_(solver), gravity_(scenario.gravity.norm()), contact_(scenario.contact) {
     dWorldSetGravity(world_, scenario.gravity.x(), scenario.gravity.y(), scenario.gravity.z());
     dWorldSetERP(world_, knobs.erp);
     dWorldSetCFM(world_, knobs.cfm);
@@ -67,12 +40,15 @@ class OdeWorld final : public World {
     dWorldSetAutoDisableFlag(world_, knobs.auto_disable);
     dWorldSetLinearDamping(world_, knobs.linear_damping);
     dWorldSetAngularDamping(world_, knobs.angular_damping);
-    if (knobs.solver == Solver::kQuickStep) {
+    if (solver == OdeSolver::kQuickStep) {
       dWorldSetQuickStepNumIterations(world_, knobs.iterations);
       dWorldSetQuickStepW(world_, knobs.over_relaxation);
     }
     try {
       for (const Body& body : scenario.bodies) add(body);
+      for (const Joint& joint : scenario.joints) {
+        add_ode_joint(world_, joint, joint.a == kWorld ? nullptr : residents_[joint.a].body, residents_[joint.b].body);
+      }
     } catch (...) {
       destroy();
       throw;
@@ -91,6 +67,7 @@ class OdeWorld final : public World {
   }
 
   void step(double dt) override {
+    if (!(dt > 0)) throw std::invalid_argument("dt must be > 0, is " + shortest(dt));
     if (knobs_.correct_within_gravity_step) {
       dWorldSetContactMaxCorrectingVel(world_, std::min(knobs_.max_correcting_velocity, gravity_ * dt));
     }
@@ -98,10 +75,12 @@ class OdeWorld final : public World {
     // QuickStep shuffles its constraints with a random generator that the whole process shares. Each world keeps its
     // own place in the sequence, so that a run gives the same bits whatever else has run.
     dRandSetSeed(seed_);
-    const int done = knobs_.solver == Solver::kStep ? dWorldStep(world_, dt) : dWorldQuickStep(world_, dt);
+    complaint.clear();
+    const int done = solver_ == OdeSolver::kStep ? dWorldStep(world_, dt) : dWorldQuickStep(world_, dt);
     seed_ = dRandGetSeed();
     dJointGroupEmpty(contacts_);
     if (done == 0) throw std::runtime_error("the step failed: ODE could not allocate its working memory");
+    if (!complaint.empty()) throw std::runtime_error("the step failed: " + complaint);
   }
 
   void read(std::span<BodyState> states) const override {
@@ -146,9 +125,6 @@ class OdeWorld final : public World {
       geometry = dCreateBox(space_, size.x(), size.y(), size.z());
     }
     if (!body.fixed) {
-      if (!(body.mass > 0 && body.inertia.minCoeff() > 0)) {
-        throw std::invalid_argument("body '" + body.name + "' moves, so its mass and inertia must be > 0");
-      }
       dMass mass;
       dMassSetParameters(&mass, body.mass, 0, 0, 0, body.inertia.x(), body.inertia.y(), body.inertia.z(), 0, 0, 0);
       const Vec3 &v = body.initial.v_WB, &w = body.initial.w_WB;
@@ -170,6 +146,7 @@ class OdeWorld final : public World {
   void connect(dGeomID a, dGeomID b) {
     const dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
     if (body_a == nullptr && body_b == nullptr) return;
+    if (body_a != nullptr && body_b != nullptr && dAreConnectedExcluding(body_a, body_b, dJointTypeContact)) return;
     dContact contacts[kMaxContactsPerPair] = {};
     const int count = dCollide(a, b, kMaxContactsPerPair, &contacts[0].geom, sizeof(dContact));
     for (int i = 0; i < count; ++i) {
@@ -178,8 +155,8 @@ class OdeWorld final : public World {
       c.surface.bounce = contact_->restitution;
       c.surface.bounce_vel = knobs_.bounce_threshold;
       c.surface.mu = contact_->friction;
-      if (knobs_.friction != FrictionModel::kForceLimit) c.surface.mode |= dContactApprox1;
-      if (knobs_.friction == FrictionModel::kAlignedPyramid) align_friction(c, body_a, body_b);
+      if (knobs_.friction != OdeFriction::kForceLimit) c.surface.mode |= dContactApprox1;
+      if (knobs_.friction == OdeFriction::kAlignedPyramid) align_friction(c, body_a, body_b);
       dJointAttach(dJointCreateContact(world_, contacts_, &c), body_a, body_b);
     }
   }
@@ -210,7 +187,8 @@ class OdeWorld final : public World {
     dWorldDestroy(world_);  // and the bodies in it
   }
 
-  Knobs knobs_;
+  OdeKnobs knobs_;
+  OdeSolver solver_;
   double gravity_;  // magnitude [m/s^2]
   std::optional<ContactMaterial> contact_;
   unsigned long seed_ = kSeed;
@@ -220,57 +198,36 @@ class OdeWorld final : public World {
   std::vector<Resident> residents_;
 };
 
-std::vector<Setting> setting_table(Solver solver) {
-  std::vector<Setting> table = {
-      {"erp", 0.2, 0.2, "1", "share of the penetration that a step corrects, by real velocity"},
-      {"cfm", 1e-10, 1e-10, "s/kg", "softness of the constraints"},
-      {"max_correcting_velocity", dInfinity, dInfinity, "m/s", "separating velocity that a correction may cause"},
-      {"correct_within_gravity_step", false, true, "",
-       "also limits that velocity to |g| dt, which gravity takes back within one step; without it e = 0 rebounds "
-       "with up to erp times the approach speed"},
-      {"surface_layer", 0.0, 0.0, "m", "penetration that is left alone"},
-      {"bounce_threshold", 0.0, 0.0, "m/s", "slower rebounds have e = 0"},
-      {"friction_model", std::string("force_limit"), std::string("aligned_pyramid"), "",
-       "force_limit: mu is a force in newtons, ODE's meaning unless told otherwise; pyramid: Coulomb's mu along two "
-       "fixed axes; aligned_pyramid: the first axis is the direction of sliding, which is Coulomb's cone"},
-      {"auto_disable", false, false, "", "stops bodies that have been slow for a while"},
-      {"linear_damping", 0.0, 0.0, "1", "share of the velocity lost per step"},
-      {"angular_damping", 0.0, 0.0, "1", "share of the angular velocity lost per step"},
-      {"gyroscopic", true, true, "", "integrates w x I w"},
-  };
-  if (solver == Solver::kQuickStep) {
-    table.push_back({"quickstep_iterations", 20.0, 100.0, "",
-                     "sweeps over the constraints in a step; more, so that the contacts of one body agree"});
-    table.push_back({"quickstep_over_relaxation", 1.3, 1.3, "1", "factor on the correction of each sweep"});
-  }
-  return table;
-}
-
 class OdeEngine final : public Engine {
  public:
-  explicit OdeEngine(Solver solver) : solver_(solver) {
+  explicit OdeEngine(OdeSolver solver) : solver_(solver), knobs_(ode_knob_table(solver)) {
     // Once per process, before any other call; ODE cannot be initialised anew after it was closed.
     static const bool ready = dInitODE2(0) != 0 && dAllocateODEDataForThread(dAllocateMaskAll) != 0;
     if (!ready) throw std::runtime_error("ODE could not be initialised");
-    info_.name = solver == Solver::kStep ? "ode-step" : "ode-quickstep";
+    info_.name = solver == OdeSolver::kStep ? "ode-step" : "ode-quickstep";
     info_.library = "Open Dynamics Engine";
     info_.version = dODE_VERSION;  // the header's: the library cannot tell
     info_.precision = sizeof(dReal) == sizeof(double) ? Precision::kDouble : Precision::kSingle;
     info_.scheme = "semi-implicit Euler";
-    info_.features = {Feature::kSpatial,     Feature::kForce,           Feature::kTorque,       Feature::kSphereSphere,
-                      Feature::kSphereBox,   Feature::kSphereHalfSpace, Feature::kBoxHalfSpace, Feature::kBoxBox,
-                      Feature::kRestitution, Feature::kFriction};
-    info_.settings = setting_table(solver);
+    dSetMessageHandler(keep_message);
+    info_.features = {Feature::kSpatial,      Feature::kForce,           Feature::kTorque,
+                      Feature::kSphereSphere, Feature::kSphereBox,       Feature::kSphereHalfSpace,
+                      Feature::kBoxHalfSpace, Feature::kBoxBox,          Feature::kRestitution,
+                      Feature::kFriction,     Feature::kBallJoint,       Feature::kHinge,
+                      Feature::kSlider,       Feature::kFixedJoint,      Feature::kDistanceJoint,
+                      Feature::kJointLoop,    Feature::kJointsAndContact};
+    info_.settings = knobs_.rows();
   }
 
   const EngineInfo& info() const override { return info_; }
 
   std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
-    return std::make_unique<OdeWorld>(scenario, Knobs(settings, solver_));
+    return std::make_unique<OdeWorld>(scenario, knobs_.read(settings), solver_);
   }
 
  private:
-  Solver solver_;
+  OdeSolver solver_;
+  KnobTable<OdeKnobs> knobs_;
   EngineInfo info_;
 };
 
@@ -278,8 +235,8 @@ class OdeEngine final : public Engine {
 
 std::vector<std::unique_ptr<Engine>> make_engines() {
   std::vector<std::unique_ptr<Engine>> engines;
-  engines.push_back(std::make_unique<OdeEngine>(Solver::kStep));
-  engines.push_back(std::make_unique<OdeEngine>(Solver::kQuickStep));
+  engines.push_back(std::make_unique<OdeEngine>(OdeSolver::kStep));
+  engines.push_back(std::make_unique<OdeEngine>(OdeSolver::kQuickStep));
   return engines;
 }
 

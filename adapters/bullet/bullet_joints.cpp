@@ -1,0 +1,47 @@
+#include "bullet_joints.hpp"
+
+#include <stdexcept>
+
+#include "bullet_conversions.hpp"
+
+namespace plumbline {
+namespace {
+
+btTransform frame(const JointFrame& f) { return btTransform(quaternion(f.attitude), vector(f.anchor)); }
+
+// Bullet's sliders go along x: x of the turned frame is z of the stated one, by a third of a turn about (-1, -1, -1).
+btTransform sliding_frame(const JointFrame& f) {
+  const Quat third_turn(0.5, -0.5, -0.5, -0.5);
+  return btTransform(quaternion(f.attitude * third_turn), vector(f.anchor));
+}
+
+std::unique_ptr<btTypedConstraint> slider(const Joint& joint, btRigidBody& a, btRigidBody& b) {
+  auto slider = std::make_unique<btSliderConstraint>(a, b, sliding_frame(joint.on_a), sliding_frame(joint.on_b), true);
+  // No bounds on the travel: a lower one above the upper one. No rotation.
+  slider->setLowerLinLimit(1);
+  slider->setUpperLinLimit(-1);
+  slider->setLowerAngLimit(0);
+  slider->setUpperAngLimit(0);
+  return slider;
+}
+
+}  // namespace
+
+std::unique_ptr<btTypedConstraint> bullet_joint(const Joint& joint, btRigidBody& a, btRigidBody& b) {
+  if (joint.range) throw std::invalid_argument("joint '" + joint.name + "' has a range, which is not handed to Bullet");
+  switch (joint.kind) {
+    case JointKind::kBall:
+      return std::make_unique<btPoint2PointConstraint>(a, b, vector(joint.on_a.anchor), vector(joint.on_b.anchor));
+    case JointKind::kHinge:
+      return std::make_unique<btHingeConstraint>(a, b, frame(joint.on_a), frame(joint.on_b));
+    case JointKind::kSlider:
+      return slider(joint, a, b);
+    case JointKind::kFixed:
+      return std::make_unique<btFixedConstraint>(a, b, frame(joint.on_a), frame(joint.on_b));
+    case JointKind::kDistance:
+      break;
+  }
+  throw std::invalid_argument("Bullet has no joint that keeps a distance");
+}
+
+}  // namespace plumbline

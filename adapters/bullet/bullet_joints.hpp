@@ -1,0 +1,15 @@
+// A scenario's joint as one of Bullet's constraints between rigid bodies.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <memory>
+
+#include "plumbline/core/joints/joint.hpp"
+
+namespace plumbline {
+
+// `a` is Bullet's own fixed body for a joint to the world. Throws std::invalid_argument for a joint with a range.
+std::unique_ptr<btTypedConstraint> bullet_joint(const Joint& joint, btRigidBody& a, btRigidBody& b);
+
+}  // namespace plumbline

@@ -1,0 +1,43 @@
+#include "bullet_knobs.hpp"
+
+#include "bullet_conversions.hpp"
+
+namespace plumbline {
+
+KnobTable<BulletRigidKnobs> bullet_rigid_knob_table() {
+  using K = BulletRigidKnobs;
+  KnobTable<K> table;
+  table
+      .add(&K::sleeping, "sleeping", true, false, "",
+           "stops bodies that have been slow for 2 s; a force on a sleeping body is lost")
+      .add(&K::sleeping_linear_speed, "sleeping_linear_speed", 0.8, 0.8, "m/s", "slower than this counts as slow")
+      .add(&K::sleeping_angular_speed, "sleeping_angular_speed", 1.0, 1.0, "rad/s", "slower than this counts as slow")
+      .add(&K::linear_damping, "linear_damping", 0.0, 0.0, "1", "share of the velocity lost per second")
+      .add(&K::angular_damping, "angular_damping", 0.0, 0.0, "1", "share of the angular velocity lost per second")
+      .choose(&K::gyroscopic, "gyroscopic",
+              {{"none", 0},
+               {"explicit", int{BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT}},
+               {"implicit_body", int{BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY}},
+               {"implicit_world", int{BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD}}},
+              "implicit_body", "implicit_body", "how w x I w is integrated");
+  add_bullet_solver_knobs(table)
+      .add(&K::erp, "erp", 0.2, 0.2, "1", "share of what a joint is off that a step corrects, by real velocity")
+      .add(&K::cfm, "cfm", 0, 0, "s/kg", "softness of the constraints, contacts and joints alike");
+  return table;
+}
+
+void set_bullet_solver(const BulletSolverKnobs& knobs, btDefaultCollisionConfiguration& collision,
+                       btContactSolverInfo& solver) {
+  if (knobs.plane_contact_iterations > 1) {
+    collision.setPlaneConvexMultipointIterations(knobs.plane_contact_iterations, knobs.plane_contact_iterations);
+  }
+  solver.m_numIterations = knobs.solver_iterations;
+  solver.m_solverMode = SOLVER_SIMD | (knobs.warm_starting ? SOLVER_USE_WARMSTARTING : 0);
+  solver.m_restitutionVelocityThreshold = real(knobs.restitution_threshold);
+  solver.m_splitImpulse = knobs.split_impulse ? 1 : 0;
+  solver.m_splitImpulsePenetrationThreshold = real(knobs.split_impulse_penetration_threshold);
+  solver.m_erp2 = real(knobs.erp2);
+  solver.m_linearSlop = real(knobs.linear_slop);
+}
+
+}  // namespace plumbline

@@ -1,0 +1,292 @@
+// Trees of joints in reduced coordinates: btMultiBody in a btMultiBodyDynamicsWorld. Every moving body is the base or a
+// link of a btMultiBody, as Bullet's own importers of robots make them; a body without joints is a base without links.
+#include "bullet_multibody.hpp"
+
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
+
+#include <stdexcept>
+
+#include "bullet_conversions.hpp"
+#include "bullet_knobs.hpp"
+#include "plumbline/adapters/joint_tree.hpp"
+
+namespace plumbline {
+namespace {
+
+struct MultibodyKnobs : BulletSolverKnobs {
+  bool sleeping, gyroscopic;
+  double linear_damping, angular_damping, max_coordinate_velocity;
+};
+
+KnobTable<MultibodyKnobs> knob_table() {
+  using K = MultibodyKnobs;
+  KnobTable<K> table;
+  table
+      .add(&K::sleeping, "sleeping", true, false, "",
+           "stops bodies that have been slow for 2 s; a force on a sleeping body is lost")
+      .add(&K::linear_damping, "linear_damping", 0.04, 0, "1/s",
+           "drag k (1 + |v|) v per mass, which no scenario states: on by default, unlike that of rigid bodies")
+      .add(&K::angular_damping, "angular_damping", 0.04, 0, "1/s", "drag k (1 + |w|) w per moment of inertia")
+      .add(&K::max_coordinate_velocity, "max_coordinate_velocity", 100, kBulletNever, "m/s or rad/s",
+           "faster coordinates are cut to this, silently")
+      .add(&K::gyroscopic, "gyroscopic", true, true, "", "integrates w x I w");
+  return add_bullet_solver_knobs(table);
+}
+
+// The joint that a link hangs by, with where things stand now as its zero.
+struct Hanging {
+  btQuaternion parent_to_link;
+  btVector3 pivot_on_parent, pivot_to_link;  // in the parent's axes, in the link's axes
+  btVector3 axis;                            // in the link's axes
+};
+
+Hanging hanging(const Scenario& scenario, const Joint& joint) {
+  const BodyState parent = initial_state_of(scenario, joint.a), link = initial_state_of(scenario, joint.b);
+  const Vec3 pivot_W = link.p_WB + link.q_WB * joint.on_b.anchor;
+  return {quaternion(link.q_WB.conjugate() * parent.q_WB), vector(parent.q_WB.conjugate() * (pivot_W - parent.p_WB)),
+          vector(-joint.on_b.anchor), vector(joint.on_b.axis())};
+}
+
+// Link number `i` of `tree`, hanging from link `parent`, -1 for the base.
+void set_up_link(btMultiBody& tree, int i, int parent, const Scenario& scenario, const TreeLink& link) {
+  const Body& body = scenario.bodies[link.body];
+  const Hanging h = hanging(scenario, *link.joint);
+  const btScalar mass = real(body.mass);
+  const btVector3 inertia = vector(body.inertia);
+  switch (link.joint->kind) {
+    case JointKind::kBall:
+      return tree.setupSpherical(i, mass, inertia, parent, h.parent_to_link, h.pivot_on_parent, h.pivot_to_link, true);
+    case JointKind::kHinge:
+      return tree.setupRevolute(i, mass, inertia, parent, h.parent_to_link, h.axis, h.pivot_on_parent, h.pivot_to_link,
+                                true);
+    case JointKind::kSlider:
+      return tree.setupPrismatic(i, mass, inertia, parent, h.parent_to_link, h.axis, h.pivot_on_parent, h.pivot_to_link,
+                                 true);
+    case JointKind::kFixed:
+      return tree.setupFixed(i, mass, inertia, parent, h.parent_to_link, h.pivot_on_parent, h.pivot_to_link);
+    case JointKind::kDistance:
+      break;
+  }
+  throw std::logic_error("a rod is no joint of a tree");
+}
+
+void set_initial_rate(btMultiBody& tree, int i, const Scenario& scenario, const Joint& joint) {
+  if (joint.kind == JointKind::kHinge || joint.kind == JointKind::kSlider) {
+    tree.setJointVel(i, real(initial_rate(scenario, joint)));
+  } else if (joint.kind == JointKind::kBall) {
+    const btVector3 w = vector(initial_relative_rotation(scenario, joint));
+    tree.setJointVelMultiDof(i, static_cast<const btScalar*>(w));
+  }
+}
+
+// The links of each tree, parents first.
+std::vector<std::vector<TreeLink>> trees_of(const JointTree& forest, std::size_t body_count) {
+  std::vector<std::vector<TreeLink>> trees;
+  std::vector<std::size_t> tree_of(body_count);
+  for (const TreeLink& link : forest.links) {
+    const bool root = !link.joint || link.joint->a == kWorld;
+    if (root) trees.emplace_back();
+    tree_of[link.body] = root ? trees.size() - 1 : tree_of[link.joint->a];
+    trees[tree_of[link.body]].push_back(link);
+  }
+  return trees;
+}
+
+class MultibodyWorld final : public World {
+ public:
+  MultibodyWorld(const Scenario& scenario, const MultibodyKnobs& knobs)
+      : contact_(scenario.contact), threshold_(real(knobs.contact_processing_threshold)) {
+    set_bullet_solver(knobs, collision_, world_.getSolverInfo());
+    world_.setGravity(vector(scenario.gravity));
+    for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
+      if (scenario.bodies[i].fixed) add_fixed(i, scenario.bodies[i]);
+    }
+    places_.resize(scenario.bodies.size());
+    for (const auto& links : trees_of(joint_tree(scenario), scenario.bodies.size())) add_tree(scenario, knobs, links);
+  }
+
+  ~MultibodyWorld() override {
+    for (const auto& collider : colliders_) world_.removeCollisionObject(collider.get());
+    for (const Tree& tree : trees_) world_.removeMultiBody(tree.multibody.get());
+  }
+
+  void apply(std::span<const Wrench> wrenches) override {
+    for (const Tree& tree : trees_) {
+      for (std::size_t k = 0; k < tree.bodies.size(); ++k) {
+        if (tree.bodies[k] == kWorld) continue;
+        const btVector3 f = vector(wrenches[tree.bodies[k]].f_W), tau = vector(wrenches[tree.bodies[k]].tau_W);
+        if (k == 0) {
+          tree.multibody->addBaseForce(f);
+          tree.multibody->addBaseTorque(tau);
+        } else {
+          tree.multibody->addLinkForce(static_cast<int>(k) - 1, f);
+          tree.multibody->addLinkTorque(static_cast<int>(k) - 1, tau);
+        }
+      }
+    }
+  }
+
+  // Zero sub-steps at most means one step of exactly dt. Bullet clears the forces at its end.
+  void step(double dt) override {
+    if (!(dt > 0)) throw std::invalid_argument("dt must be > 0, is " + shortest(dt));
+    world_.stepSimulation(real(dt), 0);
+  }
+
+  void read(std::span<BodyState> states) const override {
+    for (const Fixed& f : fixed_) states[f.body] = f.state;
+    btAlignedObjectArray<btQuaternion> to_link;
+    btAlignedObjectArray<btVector3> origin, v, w;
+    for (const Tree& tree : trees_) {
+      btMultiBody& multibody = *tree.multibody;
+      const int count = static_cast<int>(tree.bodies.size());
+      v.resize(count);
+      w.resize(count);
+      multibody.forwardKinematics(to_link, origin);
+      multibody.compTreeLinkVelocities(&w[0], &v[0]);  // each in its own axes
+      for (int k = 0; k < count; ++k) {
+        const std::size_t body = tree.bodies[static_cast<std::size_t>(k)];
+        if (body == kWorld) continue;
+        const btQuaternion to_world = to_link[k].inverse();
+        states[body].p_WB = vec3(origin[k]);
+        states[body].q_WB = quat(to_world);
+        // The base keeps its velocities in W: turning them there and back would round them.
+        states[body].v_WB = vec3(k == 0 ? multibody.getBaseVel() : quatRotate(to_world, v[k]));
+        states[body].w_WB = vec3(k == 0 ? multibody.getBaseOmega() : quatRotate(to_world, w[k]));
+      }
+    }
+  }
+
+ private:
+  struct Tree {
+    std::unique_ptr<btMultiBody> multibody;
+    std::vector<std::size_t> bodies;  // the base, kWorld for one that stands still, then the links
+  };
+  struct Fixed {
+    std::size_t body;
+    BodyState state;  // what read() says of it
+  };
+  struct Place {
+    btMultiBody* multibody = nullptr;
+    int link = -1;  // the base
+  };
+
+  void add_fixed(std::size_t i, const Body& body) {
+    shapes_.push_back(bullet_shape(body));
+    // Mass 0 is how Bullet says "fixed".
+    auto post = std::make_unique<btRigidBody>(real(0), nullptr, shapes_.back().get());
+    post->setWorldTransform(bullet_pose(body));
+    add(std::move(post));
+    fixed_.push_back({i, {body.initial.p_WB, body.initial.q_WB, Vec3::Zero(), Vec3::Zero()}});
+  }
+
+  void add_tree(const Scenario& scenario, const MultibodyKnobs& knobs, const std::vector<TreeLink>& links) {
+    const bool floats = !links.front().joint;
+    const Body& root = scenario.bodies[links.front().body];
+    Tree tree;
+    if (!floats) tree.bodies.push_back(kWorld);
+    for (const TreeLink& link : links) tree.bodies.push_back(link.body);
+    tree.multibody =
+        std::make_unique<btMultiBody>(static_cast<int>(tree.bodies.size()) - 1, floats ? real(root.mass) : real(0),
+                                      floats ? vector(root.inertia) : btVector3(0, 0, 0), !floats, knobs.sleeping);
+    btMultiBody& multibody = *tree.multibody;
+    for (const TreeLink& link : links) {
+      const int number = static_cast<int>(&link - links.data()) - (floats ? 1 : 0);
+      places_[link.body] = {&multibody, number};
+      if (link.joint) {
+        const int parent = link.joint->a == kWorld ? -1 : places_[link.joint->a].link;
+        set_up_link(multibody, number, parent, scenario, link);
+      }
+    }
+    multibody.finalizeMultiDof();
+    multibody.setLinearDamping(real(knobs.linear_damping));
+    multibody.setAngularDamping(real(knobs.angular_damping));
+    multibody.setMaxCoordinateVelocity(real(knobs.max_coordinate_velocity));
+    multibody.setUseGyroTerm(knobs.gyroscopic);
+    if (floats) {
+      multibody.setBasePos(vector(root.initial.p_WB));
+      multibody.setWorldToBaseRot(quaternion(root.initial.q_WB.conjugate()));
+      multibody.setBaseVel(vector(root.initial.v_WB));
+      multibody.setBaseOmega(vector(root.initial.w_WB));
+    }
+    for (const TreeLink& link : links) {
+      if (link.joint) set_initial_rate(multibody, places_[link.body].link, scenario, *link.joint);
+    }
+    world_.addMultiBody(&multibody);
+    for (const TreeLink& link : links) add_collider(multibody, places_[link.body].link, scenario.bodies[link.body]);
+    trees_.push_back(std::move(tree));
+  }
+
+  void add_collider(btMultiBody& multibody, int link, const Body& body) {
+    shapes_.push_back(bullet_shape(body));
+    auto collider = std::make_unique<btMultiBodyLinkCollider>(&multibody, link);
+    collider->setCollisionShape(shapes_.back().get());
+    collider->setWorldTransform(bullet_pose(body));
+    (link < 0 ? multibody.setBaseCollider(collider.get()) : void(multibody.getLink(link).m_collider = collider.get()));
+    add(std::move(collider));
+  }
+
+  void add(std::unique_ptr<btCollisionObject> object) {
+    object->setRestitution(contact_ ? real(contact_->restitution) : real(0));
+    object->setFriction(contact_ ? real(contact_->friction) : real(0));
+    object->setContactProcessingThreshold(threshold_);
+    if (contact_) {
+      world_.addCollisionObject(object.get());
+    } else {
+      world_.addCollisionObject(object.get(), 0, 0);  // in no collision group, looking for none
+    }
+    colliders_.push_back(std::move(object));
+  }
+
+  std::optional<ContactMaterial> contact_;
+  btScalar threshold_;  // [m]
+  btDefaultCollisionConfiguration collision_;
+  btCollisionDispatcher dispatcher_{&collision_};
+  btDbvtBroadphase broadphase_;
+  btMultiBodyConstraintSolver solver_;
+  btMultiBodyDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &collision_};
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::vector<std::unique_ptr<btCollisionObject>> colliders_;
+  std::vector<Fixed> fixed_;
+  std::vector<Place> places_;  // of each body
+  std::vector<Tree> trees_;
+};
+
+class MultibodyEngine final : public Engine {
+ public:
+  MultibodyEngine() {
+    info_.name = "bullet-multibody";
+    info_.library = "Bullet";
+    info_.version = std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100);
+    info_.precision = kBulletIsDouble ? Precision::kDouble : Precision::kSingle;
+    info_.scheme = "semi-implicit Euler in joint coordinates";
+    info_.features = {Feature::kSpatial,      Feature::kForce,      Feature::kTorque,
+                      Feature::kSphereSphere, Feature::kSphereBox,  Feature::kSphereHalfSpace,
+                      Feature::kBoxHalfSpace, Feature::kBoxBox,     Feature::kRestitution,
+                      Feature::kFriction,     Feature::kBallJoint,  Feature::kHinge,
+                      Feature::kSlider,       Feature::kFixedJoint, Feature::kJointsAndContact};
+    info_.settings = knobs_.rows();
+  }
+
+  const EngineInfo& info() const override { return info_; }
+
+  std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
+    for (const Joint& joint : scenario.joints) {
+      if (joint.range) {
+        throw std::invalid_argument("joint '" + joint.name + "' has a range, which is not handed to Bullet");
+      }
+    }
+    return std::make_unique<MultibodyWorld>(scenario, knobs_.read(settings));
+  }
+
+ private:
+  const KnobTable<MultibodyKnobs> knobs_ = knob_table();
+  EngineInfo info_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_bullet_multibody() { return std::make_unique<MultibodyEngine>(); }
+
+}  // namespace plumbline

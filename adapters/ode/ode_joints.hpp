@@ -1,0 +1,14 @@
+// A scenario's joint as one of ODE.
+#pragma once
+
+#include <ode/ode.h>
+
+#include "plumbline/core/joints/joint.hpp"
+
+namespace plumbline {
+
+// Ties b to a, null for the world, where both stand now. The world owns the joint. Throws std::invalid_argument for a
+// joint with a range.
+void add_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b);
+
+}  // namespace plumbline
