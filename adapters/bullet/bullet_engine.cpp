@@ -20,9 +20,13 @@ btScalar pair_friction(const btCollisionObject* a, const btCollisionObject*) { r
 class BulletWorld final : public World {
  public:
   BulletWorld(const Scenario& scenario, const BulletRigidKnobs& knobs) {
-    set_bullet_solver(knobs, collision_, world_.getSolverInfo());
-    world_.getSolverInfo().m_erp = real(knobs.erp);
-    world_.getSolverInfo().m_globalCfm = real(knobs.cfm);
+    btContactSolverInfo& solver = world_.getSolverInfo();
+    set_bullet_contact(knobs, collision_, solver);
+    solver.m_solverMode = SOLVER_SIMD | (knobs.warm_starting ? SOLVER_USE_WARMSTARTING : 0);
+    solver.m_splitImpulse = knobs.split_impulse ? 1 : 0;
+    solver.m_splitImpulsePenetrationThreshold = real(knobs.split_impulse_penetration_threshold);
+    solver.m_erp = real(knobs.erp);
+    solver.m_globalCfm = real(knobs.cfm);
     world_.setGravity(vector(scenario.gravity));
     for (const Body& body : scenario.bodies) add(body, scenario.contact, knobs);
     for (const Joint& joint : scenario.joints) add(joint);

@@ -20,22 +20,26 @@ KnobTable<BulletRigidKnobs> bullet_rigid_knob_table() {
                {"implicit_body", int{BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY}},
                {"implicit_world", int{BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD}}},
               "implicit_body", "implicit_body", "how w x I w is integrated");
-  add_bullet_solver_knobs(table)
+  add_bullet_contact_knobs(table)
+      .add(&K::warm_starting, "warm_starting", true, true, "", "starts from the impulses of the step before")
+      .add(&K::split_impulse, "split_impulse", true, true, "",
+           "corrects penetration with velocities that are forgotten after the step")
+      .add(&K::split_impulse_penetration_threshold, "split_impulse_penetration_threshold", -0.04, 0.0, "m",
+           "shallower penetration is corrected by real velocity: an impact seen at depth d rebounds with e + erp2 d/(v "
+           "dt) instead of e; 0: never")
+      .add(&K::erp2, "erp2", 0.2, 0.2, "1", "share of the penetration that a step corrects")
       .add(&K::erp, "erp", 0.2, 0.2, "1", "share of what a joint is off that a step corrects, by real velocity")
       .add(&K::cfm, "cfm", 0, 0, "s/kg", "softness of the constraints, contacts and joints alike");
   return table;
 }
 
-void set_bullet_solver(const BulletSolverKnobs& knobs, btDefaultCollisionConfiguration& collision,
-                       btContactSolverInfo& solver) {
+void set_bullet_contact(const BulletContactKnobs& knobs, btDefaultCollisionConfiguration& collision,
+                        btContactSolverInfo& solver) {
   if (knobs.plane_contact_iterations > 1) {
     collision.setPlaneConvexMultipointIterations(knobs.plane_contact_iterations, knobs.plane_contact_iterations);
   }
   solver.m_numIterations = knobs.solver_iterations;
-  solver.m_solverMode = SOLVER_SIMD | (knobs.warm_starting ? SOLVER_USE_WARMSTARTING : 0);
   solver.m_restitutionVelocityThreshold = real(knobs.restitution_threshold);
-  solver.m_splitImpulse = knobs.split_impulse ? 1 : 0;
-  solver.m_splitImpulsePenetrationThreshold = real(knobs.split_impulse_penetration_threshold);
   solver.m_erp2 = real(knobs.erp2);
   solver.m_linearSlop = real(knobs.linear_slop);
 }

@@ -15,8 +15,8 @@
 namespace plumbline {
 namespace {
 
-struct MultibodyKnobs : BulletSolverKnobs {
-  bool sleeping, gyroscopic;
+struct MultibodyKnobs : BulletContactKnobs {
+  bool sleeping, gyroscopic, warm_starting;
   double linear_damping, angular_damping, max_coordinate_velocity;
 };
 
@@ -32,7 +32,12 @@ KnobTable<MultibodyKnobs> knob_table() {
       .add(&K::max_coordinate_velocity, "max_coordinate_velocity", 100, kBulletNever, "m/s or rad/s",
            "faster coordinates are cut to this, silently")
       .add(&K::gyroscopic, "gyroscopic", true, true, "", "integrates w x I w");
-  return add_bullet_solver_knobs(table);
+  return add_bullet_contact_knobs(table)
+      .add(&K::warm_starting, "warm_starting", false, false, "", "starts from the impulses of the step before")
+      .add(&K::erp2, "erp2", 0.2, 0, "1",
+           "share of the penetration that a step corrects, always by real velocity: split impulses are not for "
+           "multibodies, so that an impact seen at depth d rebounds with e + erp2 d/(v dt); without it penetration "
+           "stays");
 }
 
 // The joint that a link hangs by, with where things stand now as its zero.
@@ -98,7 +103,8 @@ class MultibodyWorld final : public World {
  public:
   MultibodyWorld(const Scenario& scenario, const MultibodyKnobs& knobs)
       : contact_(scenario.contact), threshold_(real(knobs.contact_processing_threshold)) {
-    set_bullet_solver(knobs, collision_, world_.getSolverInfo());
+    set_bullet_contact(knobs, collision_, world_.getSolverInfo());
+    if (knobs.warm_starting) world_.getSolverInfo().m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
     world_.setGravity(vector(scenario.gravity));
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
       if (scenario.bodies[i].fixed) add_fixed(i, scenario.bodies[i]);
@@ -177,7 +183,7 @@ class MultibodyWorld final : public World {
     // Mass 0 is how Bullet says "fixed".
     auto post = std::make_unique<btRigidBody>(real(0), nullptr, shapes_.back().get());
     post->setWorldTransform(bullet_pose(body));
-    add(std::move(post));
+    add(std::move(post), btBroadphaseProxy::StaticFilter);
     fixed_.push_back({i, {body.initial.p_WB, body.initial.q_WB, Vec3::Zero(), Vec3::Zero()}});
   }
 
@@ -224,18 +230,18 @@ class MultibodyWorld final : public World {
     collider->setCollisionShape(shapes_.back().get());
     collider->setWorldTransform(bullet_pose(body));
     (link < 0 ? multibody.setBaseCollider(collider.get()) : void(multibody.getLink(link).m_collider = collider.get()));
-    add(std::move(collider));
+    add(std::move(collider), btBroadphaseProxy::DefaultFilter);
   }
 
-  void add(std::unique_ptr<btCollisionObject> object) {
+  void add(std::unique_ptr<btCollisionObject> object, int group) {
     object->setRestitution(contact_ ? real(contact_->restitution) : real(0));
     object->setFriction(contact_ ? real(contact_->friction) : real(0));
     object->setContactProcessingThreshold(threshold_);
-    if (contact_) {
-      world_.addCollisionObject(object.get());
-    } else {
-      world_.addCollisionObject(object.get(), 0, 0);  // in no collision group, looking for none
-    }
+    // Without contact in no group, looking for none. Said in any case: Bullet takes such objects for static ones.
+    const bool fixed = group == btBroadphaseProxy::StaticFilter;
+    const int others =
+        fixed ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter : btBroadphaseProxy::AllFilter;
+    world_.addCollisionObject(object.get(), contact_ ? group : 0, contact_ ? others : 0);
     colliders_.push_back(std::move(object));
   }
 
