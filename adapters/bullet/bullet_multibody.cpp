@@ -22,13 +22,15 @@ struct MultibodyKnobs : BulletContactKnobs {
 
 KnobTable<MultibodyKnobs> knob_table() {
   using K = MultibodyKnobs;
+  // Bullet writes its damping as a float, in double precision too.
+  constexpr double kDamping = 0.04f;
   KnobTable<K> table;
   table
       .add(&K::sleeping, "sleeping", true, false, "",
            "stops bodies that have been slow for 2 s; a force on a sleeping body is lost")
-      .add(&K::linear_damping, "linear_damping", 0.04, 0, "1/s",
+      .add(&K::linear_damping, "linear_damping", kDamping, 0, "1/s",
            "drag k (1 + |v|) v per mass, which no scenario states: on by default, unlike that of rigid bodies")
-      .add(&K::angular_damping, "angular_damping", 0.04, 0, "1/s", "drag k (1 + |w|) w per moment of inertia")
+      .add(&K::angular_damping, "angular_damping", kDamping, 0, "1/s", "drag k (1 + |w|) w per moment of inertia")
       .add(&K::max_coordinate_velocity, "max_coordinate_velocity", 100, kBulletNever, "m/s or rad/s",
            "faster coordinates are cut to this, silently")
       .add(&K::gyroscopic, "gyroscopic", true, true, "", "integrates w x I w");
