@@ -16,7 +16,7 @@ struct Knobs {
   Response response;
   double time_constant, damping_ratio;
   double impedance_min, impedance_max, impedance_width;
-  double recovery_time, drift_share;
+  double stop_share, recovery_time, drift_share;
   mjtCone cone;
   double friction_impedance;
   mjtSolver solver;
@@ -41,6 +41,9 @@ const KnobTable<Knobs>& knob_table() {
                "share of what a constraint asks for that it gets at the first touch; 0.9999 is the most MuJoCo takes")
           .add(&Knobs::impedance_max, "impedance_max", 0.95, 0.9999, "1", "the same at the depth impedance_width")
           .add(&Knobs::impedance_width, "impedance_width", 0.001, 0.001, "m", "depth of the transition between the two")
+          .add(&Knobs::stop_share, "stop_share", 0.1, 0.1, "1",
+               "of one_step: share of approach and slip that a contact with friction and without rebound stops in a "
+               "step; MuJoCo's convex law throws what slides up with mu times that share of its sliding speed")
           .add(&Knobs::recovery_time, "recovery_time", 0.25, 0.25, "s",
                "of one_step: contacts push penetration out with (1 - e) depth/recovery_time where there is gravity; "
                "without it nothing rests, and the correction would only be a rebound")
@@ -53,7 +56,7 @@ const KnobTable<Knobs>& knob_table() {
           .choose(&Knobs::solver, "solver", {{"pgs", mjSOL_PGS}, {"cg", mjSOL_CG}, {"newton", mjSOL_NEWTON}}, "newton",
                   "newton", "of the convex problem of each step")
           .add(&Knobs::iterations, "iterations", 100, 100, "", "of the solver, at most")
-          .add(&Knobs::tolerance, "tolerance", 1e-8, 1e-12, "1", "improvement at which the solver stops");
+          .add(&Knobs::tolerance, "tolerance", 1e-8, 0.0, "1", "improvement at which the solver stops");
   return table;
 }
 
@@ -76,8 +79,9 @@ class MujocoWorld final : public World {
     option.tolerance = knobs.tolerance;
     // The four evaluations of a Runge-Kutta step see the contact at four depths, and no damping makes them add up to a
     // rebound; without restitution any does that is stable.
-    restitution_damping_ = integrator == mjINT_RK4 ? 1 : 1 + restitution_;
-    recovery_ = scenario.gravity.norm() > 0 ? (1 - restitution_) / knobs.recovery_time : 0;
+    const bool slides = scenario.contact && scenario.contact->friction > 0;
+    damping_ = restitution_ == 0 && slides ? knobs.stop_share : integrator == mjINT_RK4 ? 1 : 1 + restitution_;
+    recovers_ = scenario.gravity.norm() > 0;
     for (const Body& body : scenario.bodies) fixed_.push_back({body.initial.p_WB, body.initial.q_WB});
     for (const TreeLink& link : tree_.links) start(scenario, link);
   }
@@ -173,14 +177,17 @@ class MujocoWorld final : public World {
         std::copy_n(impedance, 3, imp + mjNIMP * i);
       }
     };
-    set(model_->pair_solref, model_->pair_solimp, model_->npair, recovery_ / dt, restitution_damping_ / dt);
+    const double b = damping_ / dt;
+    const double k = recovers_ ? (1 - restitution_) * std::min(b / knobs_.recovery_time, b * b / 4) : 0;
+    set(model_->pair_solref, model_->pair_solimp, model_->npair, k, b);
     set(model_->eq_solref, model_->eq_solimp, model_->neq, knobs_.drift_share / (dt * dt), 1 / dt);
     model_->opt.timestep = dt;
     prepared_ = true;
   }
 
   Knobs knobs_;
-  double restitution_, restitution_damping_ = 0, recovery_ = 0;
+  double restitution_, damping_ = 0;
+  bool recovers_ = false;
   JointTree tree_;
   MujocoModel model_;
   MujocoData data_, view_;

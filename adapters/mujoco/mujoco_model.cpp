@@ -13,10 +13,10 @@ constexpr const char* kFile = "scenario.xml";
 // Room for contacts: this version drops what exceeds it. Eight a pair is the most, between two boxes; of many bodies
 // not all touch at once. A full list ends the run.
 constexpr std::size_t kContactsPerPair = 8;
-constexpr std::size_t kContactsPerMovingBody = 24;
-constexpr std::size_t kRowsPerContact = 4;   // pyramidal cone
-constexpr std::size_t kRowsPerLeftOver = 6;  // of a joint that closes a loop
-constexpr double kSecondPointOfHinge = 1;    // [m]
+constexpr std::size_t kContactsPerMovingBody = 16;
+constexpr std::size_t kRowsPerMovingBody = 6;  // of no constraint: the stack is sized by the rows, too small for few
+constexpr std::size_t kRowsPerLeftOver = 6;    // of a joint that closes a loop
+constexpr double kSecondPointOfHinge = 1;      // [m]
 
 std::string attribute(const char* name, std::initializer_list<double> numbers) {
   std::string text;
@@ -163,7 +163,9 @@ class ModelText {
 
   std::string size() const {
     const std::size_t contacts = std::min(kContactsPerPair * pairs_, kContactsPerMovingBody * tree_.links.size());
-    const std::size_t rows = kRowsPerContact * contacts + kRowsPerLeftOver * tree_.left_over.size();
+    const std::size_t per_contact = scenario_.contact && scenario_.contact->friction > 0 ? 4 : 1;  // pyramid: 4
+    const std::size_t rows =
+        per_contact * contacts + kRowsPerLeftOver * tree_.left_over.size() + kRowsPerMovingBody * tree_.links.size();
     return "<size nconmax=\"" + std::to_string(contacts) + "\" njmax=\"" + std::to_string(rows) + "\"/>";
   }
 
