@@ -16,7 +16,7 @@ struct Knobs {
   Response response;
   double time_constant, damping_ratio;
   double impedance_min, impedance_max, impedance_width;
-  double stop_share, recovery_time, drift_share;
+  double sliding_damping, recovery_time, drift_share;
   mjtCone cone;
   double friction_impedance;
   mjtSolver solver;
@@ -41,9 +41,9 @@ const KnobTable<Knobs>& knob_table() {
                "share of what a constraint asks for that it gets at the first touch; 0.9999 is the most MuJoCo takes")
           .add(&Knobs::impedance_max, "impedance_max", 0.95, 0.9999, "1", "the same at the depth impedance_width")
           .add(&Knobs::impedance_width, "impedance_width", 0.001, 0.001, "m", "depth of the transition between the two")
-          .add(&Knobs::stop_share, "stop_share", 0.1, 0.1, "1",
-               "of one_step: share of approach and slip that a contact with friction and without rebound stops in a "
-               "step; MuJoCo's convex law throws what slides up with mu times that share of its sliding speed")
+          .add(&Knobs::sliding_damping, "sliding_damping", 10, 10, "1/s",
+               "b of one_step where there is friction and no restitution: MuJoCo's convex law throws up what slides "
+               "at v, by mu b v; less than g, it stays on the ground, and impacts take 1/b")
           .add(&Knobs::recovery_time, "recovery_time", 0.25, 0.25, "s",
                "of one_step: contacts push penetration out with (1 - e) depth/recovery_time where there is gravity; "
                "without it nothing rests, and the correction would only be a rebound")
@@ -65,7 +65,7 @@ class MujocoWorld final : public World {
   MujocoWorld(const Scenario& scenario, const Knobs& knobs, mjtIntegrator integrator)
       : knobs_(knobs),
         restitution_(scenario.contact ? scenario.contact->restitution : 0),
-        tree_(mujoco_tree(scenario)),
+        tree_(joint_tree(scenario)),
         model_(mujoco_model(scenario, tree_)),
         data_(mj_makeData(model_.get())),
         view_(mj_makeData(model_.get())) {
@@ -77,10 +77,10 @@ class MujocoWorld final : public World {
     option.solver = knobs.solver;
     option.iterations = knobs.iterations;
     option.tolerance = knobs.tolerance;
-    // The four evaluations of a Runge-Kutta step see the contact at four depths, and no damping makes them add up to a
-    // rebound; without restitution any does that is stable.
-    const bool slides = scenario.contact && scenario.contact->friction > 0;
-    damping_ = restitution_ == 0 && slides ? knobs.stop_share : integrator == mjINT_RK4 ? 1 : 1 + restitution_;
+    sliding_ = restitution_ == 0 && scenario.contact && scenario.contact->friction > 0;
+    // A Runge-Kutta step with b dt = 2 stops at half of it and stays. A rebound it cannot give at any b: its four
+    // evaluations see the contact at four depths, some of them none.
+    damping_ = integrator == mjINT_RK4 ? 2 : 1 + restitution_;
     recovers_ = scenario.gravity.norm() > 0;
     for (const Body& body : scenario.bodies) fixed_.push_back({body.initial.p_WB, body.initial.q_WB});
     for (const TreeLink& link : tree_.links) start(scenario, link);
@@ -177,7 +177,7 @@ class MujocoWorld final : public World {
         std::copy_n(impedance, 3, imp + mjNIMP * i);
       }
     };
-    const double b = damping_ / dt;
+    const double b = sliding_ ? std::min(knobs_.sliding_damping, damping_ / dt) : damping_ / dt;
     const double k = recovers_ ? (1 - restitution_) * std::min(b / knobs_.recovery_time, b * b / 4) : 0;
     set(model_->pair_solref, model_->pair_solimp, model_->npair, k, b);
     set(model_->eq_solref, model_->eq_solimp, model_->neq, knobs_.drift_share / (dt * dt), 1 / dt);
@@ -187,7 +187,7 @@ class MujocoWorld final : public World {
 
   Knobs knobs_;
   double restitution_, damping_ = 0;
-  bool recovers_ = false;
+  bool recovers_ = false, sliding_ = false;
   JointTree tree_;
   MujocoModel model_;
   MujocoData data_, view_;

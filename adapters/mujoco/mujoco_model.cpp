@@ -152,9 +152,9 @@ class ModelText {
           text += "<tendon" + attribute("tendon1", name) + "/>";
           break;
         case JointKind::kSlider:
-          throw std::invalid_argument("joint " + std::to_string(k) +
-                                      " is a slider that closes a loop of sliders, which MuJoCo has no constraint "
-                                      "for: close the loop with a joint of another kind");
+          throw std::invalid_argument("slider '" + j.name +
+                                      "' closes a loop, which MuJoCo has no constraint for: state it before the loop's "
+                                      "other joints");
       }
     }
     if (!tendons_.empty()) tendons_ = "<tendon>" + tendons_ + "</tendon>";
@@ -178,21 +178,6 @@ class ModelText {
 }  // namespace
 
 std::string mujoco_name(std::size_t body) { return "b" + std::to_string(body); }
-
-JointTree mujoco_tree(const Scenario& scenario) {
-  std::vector<std::size_t> order(scenario.joints.size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-  std::stable_partition(order.begin(), order.end(),
-                        [&](std::size_t k) { return scenario.joints[k].kind == JointKind::kSlider; });
-  Scenario sliders_first = scenario;
-  for (std::size_t k = 0; k < order.size(); ++k) sliders_first.joints[k] = scenario.joints[order[k]];
-  JointTree tree = joint_tree(sliders_first);
-  for (TreeLink& link : tree.links) {
-    if (link.joint) link.stated = order[link.stated];
-  }
-  for (std::size_t& k : tree.left_over) k = order[k];
-  return tree;
-}
 
 MujocoModel mujoco_model(const Scenario& scenario, const JointTree& tree) {
   for (const Joint& j : scenario.joints) {

@@ -23,9 +23,6 @@ using MujocoData = std::unique_ptr<mjData, DeleteData>;
 // of the world body. Its joint, if it has one in the tree, bears the same name.
 std::string mujoco_name(std::size_t body);
 
-// Sliders come first: MuJoCo has no constraint that closes a loop with one.
-JointTree mujoco_tree(const Scenario& scenario);
-
 // Throws std::invalid_argument for what MuJoCo cannot be told, in its own words where it refuses itself.
 MujocoModel mujoco_model(const Scenario& scenario, const JointTree& tree);
 
