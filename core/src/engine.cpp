@@ -1,6 +1,7 @@
 #include "plumbline/core/engine.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace plumbline {
@@ -34,6 +35,9 @@ void require_settings(const EngineInfo& info, const Settings& settings) {
     if (found == settings.end()) throw std::invalid_argument("no setting '" + s.name + "'");
     if (found->second.index() != s.default_value.index()) {
       throw std::invalid_argument("setting '" + s.name + "' must be " + kTypes[s.default_value.index()]);
+    }
+    if (const auto* number = std::get_if<double>(&found->second); number != nullptr && std::isnan(*number)) {
+      throw std::invalid_argument("setting '" + s.name + "' must be a number; it is NaN");
     }
   }
   if (settings.size() == info.settings.size()) return;

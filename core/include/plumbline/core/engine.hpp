@@ -84,7 +84,7 @@ std::vector<std::unique_ptr<Engine>> make_engines();
 Settings settings_of(const EngineInfo& info, Profile profile);
 
 // Throws std::invalid_argument, naming the setting and the way out, unless `settings` holds exactly one value of the
-// right type for each row of info.settings.
+// right type for each row of info.settings, and no number is NaN.
 void require_settings(const EngineInfo& info, const Settings& settings);
 
 // Typed access; throws std::invalid_argument that names the setting when it is absent or of another type.
