@@ -12,26 +12,43 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kNoRequest = static_cast<std::size_t>(-1);
 
-std::size_t answer_bytes(const Scenario& scenario, double dt) {
-  return (scenario.step_count(dt) + 1) * scenario.bodies.size() * kStateDoubles * sizeof(double);
+Frame request_frame(std::size_t id, const std::string& method, nlohmann::json params) {
+  return {{{"jsonrpc", "2.0"}, {"id", id}, {"method", method}, {"params", std::move(params)}}, {}};
 }
 
-Frame run_frame(const RunRequest& request, std::size_t id) {
+// What each kind of request sends, how large a block may answer it, and what is read from the answer.
+
+Frame frame_of(const RunRequest& request, std::size_t id) {
   nlohmann::json parameters = nlohmann::json::object();
   for (const auto& [name, value] : request.scenario->parameters) parameters[name] = value;
-  Frame frame;
-  frame.json = {{"jsonrpc", "2.0"},
-                {"id", id},
-                {"method", "run"},
-                {"params",
-                 {{"engine", request.engine},
-                  {"profile", profile_name(request.profile)},
-                  {"dt", request.dt},
-                  {"parameters", parameters},
-                  {"scenario", *request.text},
-                  {"file", request.file},
-                  {"settings", to_json(request.changed)}}}};
-  return frame;
+  return request_frame(id, "run",
+                       {{"engine", request.engine},
+                        {"profile", profile_name(request.profile)},
+                        {"dt", request.dt},
+                        {"parameters", parameters},
+                        {"scenario", *request.text},
+                        {"file", request.file},
+                        {"settings", to_json(request.changed)}});
+}
+Frame frame_of(const CallRequest& request, std::size_t id) { return request_frame(id, request.method, request.params); }
+
+std::size_t answer_bytes(const RunRequest& request) {
+  const Scenario& scenario = *request.scenario;
+  return (scenario.step_count(request.dt) + 1) * scenario.bodies.size() * kStateDoubles * sizeof(double);
+}
+std::size_t answer_bytes(const CallRequest&) { return 0; }
+
+void read_answer(const Frame& frame, const RunRequest& request, RunOutcome& outcome) {
+  const auto& result = frame.json.at("result");
+  outcome.recording.trajectory = unpack(frame.block, request.dt, request.scenario->bodies.size());
+  if (outcome.recording.trajectory.samples() == 0) throw std::runtime_error("the trajectory is empty");
+  outcome.recording.wall_seconds = result.at("wall_seconds");
+  if (result.contains("not_finite_at")) outcome.recording.not_finite_at = result["not_finite_at"].get<std::size_t>();
+  outcome.settings = settings_from_json(result.at("settings"));
+}
+void read_answer(const Frame& frame, const CallRequest&, CallOutcome& outcome) {
+  outcome.result = frame.json.at("result");
+  if (!outcome.result.is_object()) throw std::runtime_error("the result is no object");
 }
 
 // What a program printed, as one line.
@@ -42,20 +59,14 @@ std::string one_line(std::string text) {
 }
 
 // The outcome that an answer frame describes.
-RunOutcome outcome_of(const Frame& frame, const RunRequest& request) {
-  RunOutcome outcome;
+template <typename Request, typename Outcome>
+void read_outcome(const Frame& frame, const Request& request, Outcome& outcome) {
   if (frame.json.contains("error")) {
     outcome.reason = frame.json["error"].value("message", "an error without a message");
-    return outcome;
+    return;
   }
-  const auto& result = frame.json.at("result");
-  outcome.recording.trajectory = unpack(frame.block, request.dt, request.scenario->bodies.size());
-  if (outcome.recording.trajectory.samples() == 0) throw std::runtime_error("the trajectory is empty");
-  outcome.recording.wall_seconds = result.at("wall_seconds");
-  if (result.contains("not_finite_at")) outcome.recording.not_finite_at = result["not_finite_at"].get<std::size_t>();
-  outcome.settings = settings_from_json(result.at("settings"));
-  outcome.end = RunOutcome::End::kAnswered;
-  return outcome;
+  read_answer(frame, request, outcome);
+  outcome.end = Outcome::End::kAnswered;
 }
 
 }  // namespace
@@ -147,35 +158,37 @@ void WorkerPool::poll_once(std::vector<Busy>& busy, double longest_seconds) {
   }
 }
 
-void WorkerPool::run(const std::vector<RunRequest>& requests, unsigned jobs, Seconds limit,
-                     const std::function<void(std::size_t, RunOutcome)>& done, const std::atomic<bool>& stop) {
+template <typename Request, typename Outcome>
+void WorkerPool::exchange(const std::vector<Request>& requests, unsigned jobs, Seconds limit,
+                          const std::function<void(std::size_t, Outcome)>& done, const std::atomic<bool>& stop) {
+  using End = typename Outcome::End;
   std::vector<Busy> busy;
   std::size_t next = 0;
 
   const auto start_next = [&] {
     const std::size_t index = next++;
-    const RunRequest& request = requests[index];
+    const Request& request = requests[index];
     try {
       Busy worker;
       worker.process = take(request.program);
       worker.program = request.program;
       worker.request = index;
       worker.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
-      worker.process->send(run_frame(request, index), answer_bytes(*request.scenario, request.dt));
+      worker.process->send(frame_of(request, index), answer_bytes(request));
       busy.push_back(std::move(worker));
     } catch (const std::exception& e) {
-      RunOutcome outcome;
+      Outcome outcome;
       outcome.reason = e.what();
       done(index, std::move(outcome));
     }
   };
 
-  // The outcome when that worker's run is over, by an answer, by its death or by the clock.
-  const auto finished = [&](Busy& worker) -> std::optional<RunOutcome> {
-    RunOutcome outcome;
+  // The outcome when that worker's request is over, by an answer, by its death or by the clock.
+  const auto finished = [&](Busy& worker) -> std::optional<Outcome> {
+    Outcome outcome;
     try {
       if (const auto frame = worker.process->next_frame()) {
-        outcome = outcome_of(*frame, requests[worker.request]);
+        read_outcome(*frame, requests[worker.request], outcome);
         outcome.messages = worker.process->take_messages();
         idle_[worker.program].push_back(std::move(worker.process));
         return outcome;
@@ -187,10 +200,10 @@ void WorkerPool::run(const std::vector<RunRequest>& requests, unsigned jobs, Sec
       return outcome;
     }
     if (worker.ended) {
-      outcome.end = RunOutcome::End::kCrashed;
+      outcome.end = End::kCrashed;
       outcome.reason = worker.process->end(false);
     } else if (Clock::now() >= worker.deadline) {
-      outcome.end = RunOutcome::End::kTimedOut;
+      outcome.end = End::kTimedOut;
       outcome.reason = fmt::format("no answer within {} s", limit.count());
     } else {
       return std::nullopt;
@@ -209,7 +222,7 @@ void WorkerPool::run(const std::vector<RunRequest>& requests, unsigned jobs, Sec
     const double wait = std::chrono::duration<double>(nearest - Clock::now()).count();
     poll_once(busy, std::clamp(wait, 0.0, 0.2));
     // Results first, then the callbacks, which may take long: the workers should already be busy again.
-    std::vector<std::pair<std::size_t, RunOutcome>> over;
+    std::vector<std::pair<std::size_t, Outcome>> over;
     std::erase_if(busy, [&](Busy& worker) {
       auto outcome = finished(worker);
       if (!outcome) return false;
@@ -219,6 +232,16 @@ void WorkerPool::run(const std::vector<RunRequest>& requests, unsigned jobs, Sec
     while (busy.size() < jobs && next < requests.size() && !stop) start_next();
     for (auto& [index, outcome] : over) done(index, std::move(outcome));
   }
+}
+
+void WorkerPool::run(const std::vector<RunRequest>& requests, unsigned jobs, Seconds limit,
+                     const std::function<void(std::size_t, RunOutcome)>& done, const std::atomic<bool>& stop) {
+  exchange(requests, jobs, limit, done, stop);
+}
+
+void WorkerPool::call(const std::vector<CallRequest>& requests, unsigned jobs, Seconds limit,
+                      const std::function<void(std::size_t, CallOutcome)>& done, const std::atomic<bool>& stop) {
+  exchange(requests, jobs, limit, done, stop);
 }
 
 }  // namespace plumbline

@@ -15,13 +15,20 @@
 
 namespace plumbline {
 
-// What came back for one request.
-struct RunOutcome {
+// How one request ended, whatever it asked for.
+struct WorkerOutcome {
   enum class End { kAnswered, kCrashed, kTimedOut, kError } end = End::kError;
-  Recording recording;   // when answered
-  Settings settings;     // as the worker applied them
   std::string reason;    // when not answered
   std::string messages;  // what the engine printed, the last 64 KiB
+};
+
+struct RunOutcome : WorkerOutcome {
+  Recording recording;  // when answered
+  Settings settings;    // as the worker applied them
+};
+
+struct CallOutcome : WorkerOutcome {
+  nlohmann::json result;  // when answered
 };
 
 struct RunRequest {
@@ -33,6 +40,13 @@ struct RunRequest {
   const std::string* text = nullptr;
   std::string file;
   Settings changed = {};  // over those of the profile
+};
+
+// Any method whose answer is JSON alone.
+struct CallRequest {
+  std::size_t program = 0;
+  std::string method;
+  nlohmann::json params;
 };
 
 struct WorkerProgram {
@@ -55,9 +69,15 @@ class WorkerPool {
   // as each ends. Stops handing out work once `stop` is set; runs under way then are dropped.
   void run(const std::vector<RunRequest>& requests, unsigned jobs, Seconds limit,
            const std::function<void(std::size_t, RunOutcome)>& done, const std::atomic<bool>& stop);
+  // The same for calls.
+  void call(const std::vector<CallRequest>& requests, unsigned jobs, Seconds limit,
+            const std::function<void(std::size_t, CallOutcome)>& done, const std::atomic<bool>& stop);
 
  private:
   struct Busy;
+  template <typename Request, typename Outcome>
+  void exchange(const std::vector<Request>& requests, unsigned jobs, Seconds limit,
+                const std::function<void(std::size_t, Outcome)>& done, const std::atomic<bool>& stop);
   std::unique_ptr<WorkerProcess> take(std::size_t program);
   void poll_once(std::vector<Busy>& busy, double longest_seconds);
 
