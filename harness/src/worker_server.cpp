@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "plumbline/harness/conformance.hpp"
 #include "plumbline/harness/recording.hpp"
 #include "plumbline/harness/wire.hpp"
 
@@ -45,10 +46,18 @@ const Engine& engine_named(const std::vector<std::unique_ptr<Engine>>& engines, 
   throw std::invalid_argument("this worker has no engine '" + name + "'");
 }
 
+Profile profile_of(const json& params) {
+  const std::string name = params.at("profile");
+  for (Profile profile : {Profile::kDefault, Profile::kMatched}) {
+    if (name == profile_name(profile)) return profile;
+  }
+  throw std::invalid_argument("there is no profile '" + name + "'");
+}
+
 Frame answer_run(const json& params, const std::vector<std::unique_ptr<Engine>>& engines,
                  const ScenarioSource& source) {
   const Engine& engine = engine_named(engines, params.at("engine"));
-  const Profile profile = params.at("profile") == "default" ? Profile::kDefault : Profile::kMatched;
+  const Profile profile = profile_of(params);
   Parameters parameters;
   for (const auto& [name, value] : params.at("parameters").items()) parameters.emplace_back(name, value);
   const Scenario scenario = source(params.at("scenario"), params.at("file"), parameters);
@@ -66,6 +75,19 @@ Frame answer_run(const json& params, const std::vector<std::unique_ptr<Engine>>&
   return frame;
 }
 
+Frame answer_conformance_list() {
+  json names = json::array();
+  for (const ConformanceCheck& check : conformance_checks()) names.push_back(check.name);
+  return {{{"result", {{"checks", names}}}}, {}};
+}
+
+Frame answer_conformance_run(const json& params, const std::vector<std::unique_ptr<Engine>>& engines) {
+  const ConformanceAnswer found =
+      ask(params.at("check").get<std::string>(), engine_named(engines, params.at("engine")), profile_of(params));
+  static constexpr const char* kWords[] = {"holds", "broken", "not_asked"};
+  return {{{"result", {{"outcome", kWords[static_cast<std::size_t>(found.kind)]}, {"text", found.text}}}}, {}};
+}
+
 Frame answer(const json& request, const std::vector<std::unique_ptr<Engine>>& engines, const ScenarioSource& source) {
   const std::string method = request.at("method");
   if (method == "initialize") {
@@ -74,6 +96,8 @@ Frame answer(const json& request, const std::vector<std::unique_ptr<Engine>>& en
     return {{{"result", {{"protocol", kProtocolVersion}, {"engines", rows}}}}, {}};
   }
   if (method == "run") return answer_run(request.at("params"), engines, source);
+  if (method == "conformance.list") return answer_conformance_list();
+  if (method == "conformance.run") return answer_conformance_run(request.at("params"), engines);
   return {{{"error", {{"code", -32601}, {"message", "unknown method '" + method + "'"}}}}, {}};
 }
 

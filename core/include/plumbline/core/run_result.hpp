@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "plumbline/core/conformance_result.hpp"
 #include "plumbline/core/engine.hpp"
 #include "plumbline/core/gate.hpp"
 #include "plumbline/core/scenario.hpp"
@@ -86,6 +87,8 @@ struct Report {
   std::vector<RunResult> runs;
   std::vector<Convergence> convergence;
   std::vector<Divergence> divergence;
+  std::vector<ConformanceCheck> conformance_checks;  // those that were asked, in the order of the kit's table
+  std::vector<ConformanceResult> conformance;        // by engine, profile and check
   double wall_seconds = 0;
   bool interrupted = false;
 };
