@@ -9,6 +9,7 @@
 #include <toml++/toml.h>
 
 #include "plumbline/core/metric.hpp"
+#include "plumbline/harness/conformance.hpp"
 #include "selection.hpp"
 #include "usage_error.hpp"
 
@@ -19,7 +20,7 @@ class Reader {
  public:
   explicit Reader(std::string file) : file_(std::move(file)) {}
 
-  std::vector<Deviation> read() {
+  DeviationFile read() {
     toml::table root;
     try {
       root = toml::parse_file(file_);
@@ -28,11 +29,13 @@ class Reader {
                                    std::string_view(e.description())));
     }
     for (auto&& [key, node] : root) {
-      if (key.str() != "deviation")
-        fail(node, fmt::format("unknown key '{}'; only [[deviation]] stands here", key.str()));
-    }
-    if (const toml::array* entries = root["deviation"].as_array()) {
-      for (const toml::node& entry : *entries) add(require_table(entry));
+      if (key.str() == "deviation") {
+        each(node, [&](const toml::node& entry) { add_deviation(require_table(entry)); });
+      } else if (key.str() == "conformance") {
+        each(node, [&](const toml::node& entry) { add_known_failure(require_table(entry)); });
+      } else {
+        fail(node, fmt::format("unknown key '{}'; only [[deviation]] and [[conformance]] stand here", key.str()));
+      }
     }
     return std::move(result_);
   }
@@ -65,34 +68,70 @@ class Reader {
     for (const toml::node& item : *node.as_array()) take(item);
   }
 
-  void add(const toml::table& entry) {
+  SourcePlace place_of(const toml::table& entry) const {
+    return {file_, static_cast<int>(entry.source().begin.line), static_cast<int>(entry.source().begin.column)};
+  }
+
+  Profile profile(const toml::node& node) const {
+    const std::string name = text(node);
+    if (name != "default" && name != "matched") fail(node, "profile is \"default\" or \"matched\"");
+    return name == "default" ? Profile::kDefault : Profile::kMatched;
+  }
+
+  // The keys that both kinds of entry have: rows, profile, cause and link. False for any other.
+  template <typename Entry>
+  bool take_common(Entry& entry, std::string_view key, const toml::node& node) const {
+    if (key == "engines") {
+      each(node, [&](const toml::node& item) { entry.engines.push_back(text(item)); });
+    } else if (key == "profile") {
+      entry.profile = profile(node);
+    } else if (key == "why") {
+      entry.why = text(node);
+    } else if (key == "link") {
+      entry.link = text(node);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void add_known_failure(const toml::table& entry) {
+    KnownFailure known;
+    known.place = place_of(entry);
+    for (auto&& [key, node] : entry) {
+      if (key.str() == "check") {
+        known.check = text(node);
+        if (find_conformance_check(known.check) == nullptr) {
+          fail(node, fmt::format("there is no check '{}'; `plumbline adapter test --list` shows them", known.check));
+        }
+      } else if (!take_common(known, key.str(), node)) {
+        fail(node, fmt::format("unknown key '{}'; a known failure has check, engines, profile, why, link", key.str()));
+      }
+    }
+    if (known.check.empty()) fail(entry, "a known failure must name its check");
+    if (known.why.empty()) fail(entry, "a known failure must say why: the cause is the point of the list");
+    result_.known_failures.push_back(std::move(known));
+  }
+
+  void add_deviation(const toml::table& entry) {
     Deviation base;
-    base.place = {file_, static_cast<int>(entry.source().begin.line), static_cast<int>(entry.source().begin.column)};
+    base.place = place_of(entry);
     const toml::table* limits = nullptr;
     for (auto&& [key, node] : entry) {
       const std::string_view name = key.str();
-      if (name == "engines") {
-        each(node, [&](const toml::node& item) { base.engines.push_back(text(item)); });
-      } else if (name == "scenario") {
+      if (take_common(base, name, node)) continue;
+      if (name == "scenario") {
         base.scenario = text(node);
       } else if (name == "parameters") {
         for (auto&& [parameter, value] : require_table(node)) {
           base.parameters.emplace_back(std::string(parameter.str()), number(value));
         }
-      } else if (name == "profile") {
-        const std::string profile = text(node);
-        if (profile != "default" && profile != "matched") fail(node, "profile is \"default\" or \"matched\"");
-        base.profile = profile == "default" ? Profile::kDefault : Profile::kMatched;
       } else if (name == "dt") {
         each(node, [&](const toml::node& item) {
           base.dt.push_back(item.is_string() ? parse_step(text(item)) : number(item));
         });
       } else if (name == "limits") {
         limits = &require_table(node);
-      } else if (name == "why") {
-        base.why = text(node);
-      } else if (name == "link") {
-        base.link = text(node);
       } else {
         fail(node, fmt::format("unknown key '{}'; a deviation has engines, scenario, parameters, profile, dt, limits, "
                                "why, link",
@@ -108,17 +147,17 @@ class Reader {
       deviation.metric = metric.str();
       deviation.limit = number(value);
       if (!(deviation.limit >= 0)) fail(value, "a limit must be >= 0; write inf for 'however large'");
-      result_.push_back(std::move(deviation));
+      result_.deviations.push_back(std::move(deviation));
     }
   }
 
   std::string file_;
-  std::vector<Deviation> result_;
+  DeviationFile result_;
 };
 
 }  // namespace
 
-std::vector<Deviation> read_deviations(const std::filesystem::path& file) {
+DeviationFile read_deviations(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return {};
   return Reader(file.string()).read();
 }

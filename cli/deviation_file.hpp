@@ -4,12 +4,17 @@
 #include <filesystem>
 #include <vector>
 
+#include "plumbline/core/conformance_result.hpp"
 #include "plumbline/core/deviation.hpp"
 
 namespace plumbline {
 
-// One [[deviation]] gives one Deviation per entry of its `limits` table. An absent file is an empty list.
-// Throws UsageError with file, line and column.
-std::vector<Deviation> read_deviations(const std::filesystem::path& file);
+struct DeviationFile {
+  std::vector<Deviation> deviations;         // gates that runs miss: one per entry of a [[deviation]]'s `limits` table
+  std::vector<KnownFailure> known_failures;  // checks that fail: one per [[conformance]]
+};
+
+// An absent file is two empty lists. Throws UsageError with file, line and column.
+DeviationFile read_deviations(const std::filesystem::path& file);
 
 }  // namespace plumbline

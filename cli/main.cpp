@@ -16,12 +16,14 @@ Start here:
   plumbline list                                 what there is
   plumbline compare old/results.json new/results.json
   plumbline doctor                               what was found and what is missing
+  plumbline adapter test ode                     whether an adapter hands on what is stated
 
 Exit codes: 0 all pass, 1 a gate failed, 2 usage or bad file, 3 engine or infrastructure error, 4 nothing matched,
 77 everything was skipped, 130 interrupted.)";
 
 constexpr void (*kVerbs[])(CLI::App&, plumbline::Action&) = {plumbline::add_run_verb, plumbline::add_list_verb,
-                                                             plumbline::add_compare_verb, plumbline::add_doctor_verb};
+                                                             plumbline::add_compare_verb, plumbline::add_doctor_verb,
+                                                             plumbline::add_adapter_verb};
 
 }  // namespace
 

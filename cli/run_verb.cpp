@@ -3,15 +3,16 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <thread>
 
 #include "environment.hpp"
+#include "interruption.hpp"
 #include "inventory.hpp"
+#include "plumbline/harness/conformance_campaign.hpp"
+#include "plumbline/reports/conformance_report.hpp"
 #include "plumbline/reports/console.hpp"
 #include "plumbline/reports/html_page.hpp"
 #include "plumbline/reports/progress.hpp"
@@ -32,22 +33,8 @@ struct RunOptions {
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   double timeout = 30;
   unsigned repeat = 1;
-  bool json = false, dry_run = false, no_trajectories = false, quiet = false, verbose = false;
+  bool json = false, dry_run = false, no_trajectories = false, no_conformance = false, quiet = false, verbose = false;
 };
-
-std::atomic<bool> stop_requested = false;
-
-// The first Ctrl-C ends in order and keeps what there is; the second one ends at once.
-void request_stop(int signal) {
-  stop_requested = true;
-  std::signal(signal, SIG_DFL);
-}
-
-std::vector<Profile> profiles_of(const std::string& word) {
-  if (word == "default") return {Profile::kDefault};
-  if (word == "matched") return {Profile::kMatched};
-  return {Profile::kDefault, Profile::kMatched};
-}
 
 // Keeps results.json up to date while the runs go on, so that even a killed run leaves what it had. Written anew at
 // most every two seconds: the file is rewritten whole each time.
@@ -67,20 +54,6 @@ class Keeper {
   fs::path file_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
-
-int exit_code(const Report& report) {
-  if (report.interrupted) return kExitInterrupted;
-  bool infrastructure = false, failed = false, all_skipped = true;
-  for (const RunResult& run : report.runs) {
-    const VerdictRow& row = row_of(run.verdict);
-    infrastructure |= row.infrastructure;
-    failed |= row.breaks_build;
-    all_skipped &= run.verdict == Verdict::kUnsupported;
-  }
-  if (infrastructure) return kExitEngineError;
-  if (failed) return kExitGateFailed;
-  return all_skipped ? kExitAllSkipped : kExitPass;
-}
 
 // The folder of one case below trajectories/: "particle/drag_ship" or "collision/two_sphere/e=0.5,b=0".
 fs::path trajectory_path(const RunResult& run) {
@@ -118,7 +91,7 @@ class RunVerb {
     std::vector<EngineInfo> infos;
     for (const EngineRow& row : engines_.rows) infos.push_back(row.info);
     const auto plan_of = [&](const std::vector<CaseInput>& cases) {
-      return plan_runs(cases, infos, profiles_of(options_.profile), selected);
+      return plan_runs(cases, infos, profiles_named(options_.profile), selected);
     };
     scenarios_ = load_scenarios(installation, options_.paths, overrides, [&](const Scenario& scenario) {
       return !plan_of({{scenario, nullptr, nullptr, ""}}).empty();
@@ -166,8 +139,7 @@ class RunVerb {
   }
 
   void carry_out() {
-    std::signal(SIGINT, request_stop);
-    std::signal(SIGTERM, request_stop);
+    const std::atomic<bool>& stop = stop_on_signal();
     clear_trajectories();
     write_results(report_, output_ / "results.json");
 
@@ -188,8 +160,23 @@ class RunVerb {
     };
     run_campaign(scenarios_.cases, engines_.rows, plan_, *engines_.pool,
                  {options_.jobs, WorkerPool::Seconds(options_.timeout), options_.repeat, as_in_the_files()}, observer,
-                 stop_requested, report_);
+                 stop, report_);
     progress.end();
+    if (options_.no_conformance) return;
+    run_conformance(engines_that_ran(), *engines_.pool,
+                    {profiles_named(options_.profile), nullptr, options_.jobs, WorkerPool::Seconds(options_.timeout)},
+                    nullptr, stop, report_);
+  }
+
+  // Not those whose settings were changed for this run: the lists of known failures are not made for them.
+  std::vector<EngineRow> engines_that_ran() const {
+    std::vector<bool> planned(engines_.rows.size());
+    for (const PlannedRun& run : plan_) planned[run.engine_index] = true;
+    std::vector<EngineRow> rows;
+    for (std::size_t e = 0; e < planned.size(); ++e) {
+      if (planned[e] && engines_.rows[e].changed.empty()) rows.push_back(engines_.rows[e]);
+    }
+    return rows;
   }
 
   // Lists of deviations are made for the files' own parameters and steps.
@@ -217,15 +204,30 @@ class RunVerb {
   void finish() {
     write_results(report_, output_ / "results.json");
     write_html(report_, output_ / "report.html");
+    write_conformance();
     if (options_.json) {
       std::cout << results_json(report_) << std::flush;
     } else {
       const std::string files = fmt::format("{} and report.html", (output_ / "results.json").string());
-      print_report(report_, console_style_for(STDOUT_FILENO), std::cout, {options_.verbose, files});
+      const ConsoleStyle style = console_style_for(STDOUT_FILENO);
+      if (!report_.conformance.empty()) {
+        print_conformance(report_, style, std::cout, {options_.verbose, options_.verbose});
+      }
+      print_report(report_, style, std::cout, {options_.verbose, files});
     }
     if (report_.interrupted) {
       fmt::print(stderr, "interrupted: {} of {} runs were finished and are kept in {}\n", report_.runs.size(),
                  plan_.size(), output_.string());
+    }
+  }
+
+  // The page of an earlier run would pass for this one's.
+  void write_conformance() const {
+    const fs::path page = output_ / "conformance.html";
+    if (report_.conformance.empty()) {
+      fs::remove(page);
+    } else {
+      write_conformance_page(report_, page);
     }
   }
 
@@ -275,6 +277,7 @@ void add_run_verb(CLI::App& program, Action& action) {
       ->capture_default_str();
   verb->add_flag("--json", o->json, "Print results.json on standard output instead of the table");
   verb->add_flag("--no-trajectories", o->no_trajectories, "Do not write trajectory files");
+  verb->add_flag("--no-conformance", o->no_conformance, "Do not put the engines before the conformance kit");
   verb->add_flag("-n,--dry-run", o->dry_run, "Only print the names of the runs");
   verb->add_flag("-v,--verbose", o->verbose, "The table in full");
   verb->add_flag("-q,--quiet", o->quiet, "No progress display");

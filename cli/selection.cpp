@@ -76,6 +76,12 @@ std::function<bool(const std::string&)> name_filter(const std::vector<std::strin
   };
 }
 
+std::vector<Profile> profiles_named(std::string_view word) {
+  if (word == "default") return {Profile::kDefault};
+  if (word == "matched") return {Profile::kMatched};
+  return {Profile::kDefault, Profile::kMatched};
+}
+
 bool selects_engine(std::string_view selector, std::string_view row) {
   return row == selector || (row.starts_with(selector) && row.size() > selector.size() && row[selector.size()] == '-');
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "plumbline/core/engine.hpp"
 #include "plumbline/scenarios/scenario_file.hpp"
 
 namespace plumbline {
@@ -24,6 +25,9 @@ Overrides parse_parameters(const std::vector<std::string>& assignments);
 // not be found. A name is selected when any of the former matches (or there is none) and none of the latter does.
 // Throws UsageError for a pattern that is no regular expression.
 std::function<bool(const std::string&)> name_filter(const std::vector<std::string>& patterns);
+
+// "default", "matched" or "both".
+std::vector<Profile> profiles_named(std::string_view word);
 
 // Whether "bullet" or "bullet-f32" selects the row "bullet-f32": the whole name, or its part before a '-'.
 bool selects_engine(std::string_view selector, std::string_view row);

@@ -5,6 +5,8 @@
 
 namespace plumbline {
 
+struct Report;
+
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -19,5 +21,8 @@ enum ExitCode {
   kExitAllSkipped = 77,
   kExitInterrupted = 130,
 };
+
+// What runs and checks amount to. Those that did not measure anything (crashed, timed out, error) win over failures.
+int exit_code(const Report& report);
 
 }  // namespace plumbline

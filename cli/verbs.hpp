@@ -15,5 +15,6 @@ void add_run_verb(CLI::App& program, Action& action);
 void add_list_verb(CLI::App& program, Action& action);
 void add_compare_verb(CLI::App& program, Action& action);
 void add_doctor_verb(CLI::App& program, Action& action);
+void add_adapter_verb(CLI::App& program, Action& action);
 
 }  // namespace plumbline

@@ -87,6 +87,12 @@ std::string matrix(const Report& report, const std::vector<CaseSection>& section
   html +=
       "<p class=\"small soft\">A cell shows the worst verdict over the dt's, with position.max [m] of that run or the "
       "value of the first gate that does not hold. It leads to the case.</p>\n";
+  if (!report.conformance.empty()) {
+    html += fmt::format(
+        "<p class=\"small\"><a href=\"./conformance.html\">Whether the adapters hand on what is stated</a>: {} of the "
+        "conformance kit.</p>\n",
+        counted(report.conformance.size(), "answer"));
+  }
   // In the report's order of engines, which every section shares, however its rows are sorted.
   std::vector<std::string> engines;
   for (const EngineInfo& e : report.engines) engines.push_back(e.name);

@@ -51,6 +51,10 @@ overflow:hidden;text-overflow:ellipsis}
 .matrix td a{display:block;padding:.25rem .3rem;color:inherit;text-decoration:none;border-radius:.3rem}
 .matrix td a:hover,.matrix td a:focus-visible{outline:2px solid var(--link)}
 .matrix td b{display:block;line-height:1.1}.matrix td span{font-size:.78rem;white-space:nowrap}
+.matrix.checks td{min-width:1.7rem}.matrix.checks td>span{display:block;padding:.15rem .2rem}
+.matrix.checks td a{padding:.15rem .2rem}.matrix.checks .up{writing-mode:vertical-rl;transform:rotate(180deg)}
+.matrix.checks tbody .theme{padding-top:.8rem;font-weight:600;color:var(--soft)}
+td.wide{min-width:20rem;max-width:48rem}tr:target>*{background:var(--panel)}
 .tabs>input{position:absolute;opacity:0;pointer-events:none}
 .tabs>label{display:inline-block;padding:.25rem .8rem;margin:.2rem .15rem .2rem 0;border:1px solid var(--line);
 border-radius:.4rem;cursor:pointer;font-size:.92rem}

@@ -120,6 +120,13 @@ Profile profile(const Json& object) {
   throw std::runtime_error("/profile: \"default\" or \"matched\" was expected, found \"" + name + "\"");
 }
 
+Verdict verdict(const Json& object) {
+  const std::string name = text(object, "verdict");
+  const auto known = verdict_named(name);
+  if (!known) throw std::runtime_error("/verdict: no verdict is called \"" + name + "\"");
+  return *known;
+}
+
 Feature to_feature(const Json& value) {
   const std::string name = to_text(value);
   for (std::size_t i = 0; i < kFeatureCount; ++i) {
@@ -188,10 +195,7 @@ RunResult to_run(const Json& j) {
   r.engine = text(j, "engine");
   r.profile = profile(j);
   r.dt = number(j, "dt");
-  const std::string verdict = text(j, "verdict");
-  const auto known = verdict_named(verdict);
-  if (!known) throw std::runtime_error("/verdict: no verdict is called \"" + verdict + "\"");
-  r.verdict = *known;
+  r.verdict = verdict(j);
   r.reason = text(j, "reason");
   r.notes = list(j, "notes", to_text);
   r.metrics = named_numbers<decltype(r.metrics)>(j, "metrics");
@@ -223,6 +227,15 @@ Divergence to_divergence(const Json& j) {
   return d;
 }
 
+ConformanceCheck to_check(const Json& j) {
+  return {text(j, "name"), text(j, "theme"), text(j, "question"), text(j, "tolerance"), flag(j, "matched_only")};
+}
+
+ConformanceResult to_conformance(const Json& j) {
+  return {text(j, "engine"), profile(j),     text(j, "check"),   verdict(j),
+          text(j, "text"),   text(j, "why"), text(j, "messages")};
+}
+
 Report to_report(const Json& j) {
   const auto schema = j.is_object() ? j.find("schema") : j.end();
   if (schema == j.end() || !schema->is_string()) {
@@ -250,6 +263,9 @@ Report to_report(const Json& j) {
   report.runs = list(j, "runs", to_run);
   report.convergence = list(j, "convergence", to_convergence);
   report.divergence = list(j, "divergence", to_divergence);
+  // Files that were written before there was a kit have no such members.
+  if (j.contains("conformance_checks")) report.conformance_checks = list(j, "conformance_checks", to_check);
+  if (j.contains("conformance")) report.conformance = list(j, "conformance", to_conformance);
   return report;
 }
 

@@ -127,6 +127,21 @@ Json divergence_json(const Divergence& d) {
           {"distance", numbers(d.distance)}};
 }
 
+Json check_json(const ConformanceCheck& c) {
+  return {{"name", c.name},
+          {"theme", c.theme},
+          {"question", c.question},
+          {"tolerance", c.tolerance},
+          {"matched_only", c.matched_only}};
+}
+
+Json conformance_json(const ConformanceResult& r) {
+  return {{"engine", r.engine},    {"profile", profile_name(r.profile)},
+          {"check", r.check},      {"verdict", verdict_name(r.verdict)},
+          {"text", r.text},        {"why", r.why},
+          {"messages", r.messages}};
+}
+
 // What an engine printed need not be UTF-8; JSON must be.
 std::string dump(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -173,6 +188,8 @@ std::string results_json(const Report& report) {
   document.members("runs", report.runs, run_json);
   document.members("convergence", report.convergence, convergence_json);
   document.members("divergence", report.divergence, divergence_json);
+  document.members("conformance_checks", report.conformance_checks, check_json);
+  document.members("conformance", report.conformance, conformance_json);
   return std::move(document).finished();
 }
 
