@@ -21,6 +21,7 @@ constexpr std::string_view kNames[kFeatureCount] = {
     "sliders",
     "fixed joints",
     "distance joints",
+    "limits of joints",
     "joints that close a loop",
     "contact besides joints",
 };
@@ -193,7 +194,10 @@ FeatureSet needs(const Scenario& scenario) {
     if (scenario.contact->friction > 0) set.insert(Feature::kFriction);
     if (!scenario.joints.empty()) set.insert(Feature::kJointsAndContact);
   }
-  for (const Joint& joint : scenario.joints) set.insert(joint_feature(joint.kind));
+  for (const Joint& joint : scenario.joints) {
+    set.insert(joint_feature(joint.kind));
+    if (joint.range) set.insert(Feature::kJointRange);
+  }
   if (joints_close_a_loop(scenario)) set.insert(Feature::kJointLoop);
   return set;
 }

@@ -26,6 +26,7 @@ enum class Feature : std::size_t {
   kSlider,
   kFixedJoint,
   kDistanceJoint,
+  kJointRange,        // limits of a joint's coordinate
   kJointLoop,         // joints that close a loop, over the world or not
   kJointsAndContact,  // joints and contact in one scenario
   kCount,

@@ -30,7 +30,7 @@ struct SimulatorOptions {
   Leaps leaps = Leaps::kAllowed;
 };
 
-// What a scenario may need for the simulator to run it: all but joints and contact together.
+// What a scenario may need for the simulator to run it: all but limits of joints, and joints beside contact.
 FeatureSet simulator_features();
 
 // Impacts at their exact time (course slide 24, the simple motion simulator, with one correction: the slide resolves
