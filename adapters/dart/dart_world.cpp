@@ -42,13 +42,22 @@ Eigen::Isometry3d pose(const Vec3& p, const Quat& q) {
 
 Eigen::Isometry3d pose(const BodyState& s) { return pose(s.p_WB, s.q_WB); }
 
-// The last solver that a step asks. DART takes an answer that is not a number for zero impulses, and goes on.
+// The last solver that a step asks, watched: DART takes an answer that is not a number for zero impulses and goes on,
+// and PGS leaves out bodies so heavy that 1/mass is next to nothing.
 class LastSolver final : public dc::BoxedLcpSolver {
  public:
-  explicit LastSolver(std::shared_ptr<dc::BoxedLcpSolver> solver) : solver_(std::move(solver)) {}
+  LastSolver(std::shared_ptr<dc::BoxedLcpSolver> solver, double least_inverse_mass)
+      : solver_(std::move(solver)), least_inverse_mass_(least_inverse_mass) {}
   const std::string& getType() const override { return solver_->getType(); }
   bool solve(int n, double* A, double* x, double* b, int nub, double* lo, double* hi, int* findex,
              bool early_termination) override {
+    const int row = n > 1 ? (n + 3) / 4 * 4 : n;  // rows of A are padded so
+    for (int i = 0; i < n; ++i) {
+      const bool contact = lo[i] == 0;  // those of joints have no bounds
+      if (!contact || A[i * row + i] >= least_inverse_mass_) continue;
+      throw std::runtime_error(
+          "a contact was left out: DART's PGS solver needs 1/mass >= " + shortest(least_inverse_mass_) + " 1/kg there");
+    }
     const bool solved = solver_->solve(n, A, x, b, nub, lo, hi, findex, early_termination);
     if (!std::all_of(x, x + n, [](double impulse) { return std::isfinite(impulse); })) {
       throw std::runtime_error("the step failed: DART's solver found impulses that are not numbers");
@@ -59,12 +68,22 @@ class LastSolver final : public dc::BoxedLcpSolver {
 
  private:
   std::shared_ptr<dc::BoxedLcpSolver> solver_;
+  double least_inverse_mass_;
 };
+
+void require_noticed(const ContactMaterial& contact) {
+  constexpr double kTakenForNone = 1e-3;
+  for (double coefficient : {contact.restitution, contact.friction}) {
+    if (coefficient == 0 || coefficient > kTakenForNone) continue;
+    throw std::invalid_argument("DART takes restitution and friction up to 0.001 for none: state 0 or more than that");
+  }
+}
 
 class DartWorld final : public World {
  public:
   DartWorld(const Scenario& scenario, const DartKnobs& knobs)
       : scenario_(scenario), knobs_(knobs), nodes_(scenario.bodies.size()) {
+    if (scenario.contact) require_noticed(*scenario.contact);
     world_->setGravity(scenario.gravity);
     world_->setConstraintSolver(constraint_solver());
     auto& option = world_->getConstraintSolver()->getCollisionOption();
@@ -80,6 +99,9 @@ class DartWorld final : public World {
     }
     const JointTree tree = joint_tree(scenario);
     for (const TreeLink& link : tree.links) hang(link);
+    // Only now that they have their shapes: those that come later are found in an order that depends on addresses in
+    // memory, and so would the results.
+    for (const auto& skeleton : skeletons_) world_->addSkeleton(skeleton);
     for (std::size_t k : tree.left_over) close_loop(scenario.joints[k]);
     for (const Joint& joint : scenario.joints) {
       if (joint.range) throw std::invalid_argument("joint '" + joint.name + "': this adapter has no limits of joints");
@@ -134,19 +156,18 @@ class DartWorld final : public World {
     option.mDeltaXThreshold = knobs_.pgs_absolute_change;
     option.mRelativeDeltaXTolerance = knobs_.pgs_relative_change;
     pgs->setOption(option);
-    const auto last = std::make_shared<LastSolver>(pgs);
+    const auto last = std::make_shared<LastSolver>(pgs, option.mEpsilonForDivision);
     if (knobs_.solver == LcpSolver::kPgs) return std::make_unique<dc::BoxedLcpConstraintSolver>(last, nullptr);
     const auto dantzig = std::make_shared<dc::DantzigBoxedLcpSolver>();
     if (knobs_.pgs_fallback) return std::make_unique<dc::BoxedLcpConstraintSolver>(dantzig, last);
-    return std::make_unique<dc::BoxedLcpConstraintSolver>(std::make_shared<LastSolver>(dantzig), nullptr);
+    return std::make_unique<dc::BoxedLcpConstraintSolver>(std::make_shared<LastSolver>(dantzig, 0), nullptr);
   }
 
   dd::SkeletonPtr new_skeleton() {
-    const auto skeleton = dd::Skeleton::create("group");
-    skeleton->enableSelfCollisionCheck();
-    skeleton->enableAdjacentBodyCheck();  // who is exempt is the filter's business
-    world_->addSkeleton(skeleton);
-    return skeleton;
+    skeletons_.push_back(dd::Skeleton::create("group " + std::to_string(skeletons_.size())));
+    skeletons_.back()->enableSelfCollisionCheck();
+    skeletons_.back()->enableAdjacentBodyCheck();  // who is exempt is the filter's business
+    return skeletons_.back();
   }
 
   void fix(std::size_t i) {
@@ -279,6 +300,7 @@ class DartWorld final : public World {
   dart::simulation::WorldPtr world_ = dart::simulation::World::create();
   std::shared_ptr<dart::collision::BodyNodeCollisionFilter> filter_ =
       std::make_shared<dart::collision::BodyNodeCollisionFilter>();
+  std::vector<dd::SkeletonPtr> skeletons_;
   std::vector<dd::BodyNode*> nodes_;  // in scenario order
   std::size_t max_contacts_ = 0;
 };

@@ -88,7 +88,7 @@ class Simulation {
     auto skeleton = dynamics::Skeleton::create(name);
     auto [joint, body] = skeleton->createJointAndBodyNodePair<dynamics::WeldJoint>();
     skeleton->setMobile(false);
-    world_->addSkeleton(skeleton);
+    skeletons_.push_back(skeleton);
     bodies_.push_back({name, body});
     surface(body, std::make_shared<dynamics::PlaneShape>(normal, 0.0));
     return body;
@@ -109,6 +109,7 @@ class Simulation {
 
   // `push` is called before every step, on the state at its start.
   int run(double duration, const char* file, const std::function<void()>& push = nullptr) {
+    for (const auto& skeleton : skeletons_) world_->addSkeleton(skeleton);
     std::FILE* out = std::fopen(file, "w");
     if (out == nullptr) {
       std::perror(file);
@@ -129,7 +130,7 @@ class Simulation {
   void finish(const dynamics::SkeletonPtr& skeleton, dynamics::BodyNode* body, double mass, const Vector3d& moments) {
     const Eigen::Matrix3d I = moments.asDiagonal();
     body->setInertia(dynamics::Inertia(mass, Vector3d::Zero(), I));
-    world_->addSkeleton(skeleton);
+    skeletons_.push_back(skeleton);
     bodies_.push_back({skeleton->getName(), body});
   }
 
@@ -163,6 +164,7 @@ class Simulation {
   Request request_;
   double restitution_ = 0, friction_ = 0;
   dart::simulation::WorldPtr world_ = dart::simulation::World::create();
+  std::vector<dynamics::SkeletonPtr> skeletons_;
   std::vector<std::pair<std::string, dynamics::BodyNode*>> bodies_;
   std::vector<std::pair<dynamics::ShapeNode*, dynamics::BodyNode*>> sliding_;
 };
