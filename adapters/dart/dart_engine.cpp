@@ -20,8 +20,8 @@ KnobTable<DartKnobs> knob_table(LcpSolver solver) {
           "mesh, so that its users switch to ode")
       .choose(&K::friction_axis, "friction_axis", {{"fixed", FrictionAxis::kFixed}, {"motion", FrictionAxis::kMotion}},
               "fixed", "motion",
-              "first axis of the square friction pyramid: along y or x, or along the body's motion, where the pyramid "
-              "does what Coulomb's cone does")
+              "first axis of the square friction pyramid: along y or x, or the way that the first body of a pair would "
+              "slide without friction, where the pyramid does what Coulomb's cone does")
       .add(&K::error_reduction, "error_reduction", 0.01, 0.2, "1",
            "share of the penetration that a step corrects, by real velocity")
       .add(&K::max_error_reduction_velocity, "max_error_reduction_velocity", 1e-3, unlimited, "m/s",

@@ -122,11 +122,11 @@ class DartWorld final : public World {
   }
 
   void step(double dt) override {
-    // DART would keep its own step of 1 ms.
+    // DART would keep the step that it had.
     if (!(dt > 0)) throw std::invalid_argument("DART needs a time step > 0");
     if (dt != world_->getTimeStep()) world_->setTimeStep(dt);
     set_statics(dt);
-    if (knobs_.friction_axis == FrictionAxis::kMotion) align_friction();
+    if (knobs_.friction_axis == FrictionAxis::kMotion) align_friction(dt);
     world_->step();
     if (world_->getLastCollisionResult().getNumContacts() >= max_contacts_) {
       throw std::runtime_error("the step may have dropped contacts: DART keeps at most " +
@@ -286,12 +286,16 @@ class DartWorld final : public World {
     dc::DynamicJointConstraint::setErrorReductionParameter(knobs_.loop_error_reduction);
   }
 
-  // Friction is a box whose first axis each body may choose; along its motion it does what Coulomb's cone does.
-  void align_friction() {
+  // Friction is a box whose first axis each body may choose. Along the way that the body would slide without friction
+  // it does what Coulomb's cone does; a body at rest has such a way too.
+  void align_friction(double dt) {
     if (!scenario_.contact) return;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      if (scenario_.bodies[i].fixed) continue;
-      nodes_[i]->getShapeNode(0)->getDynamicsAspect()->setFirstFrictionDirection(nodes_[i]->getLinearVelocity());
+      const Body& body = scenario_.bodies[i];
+      if (body.fixed) continue;
+      const Vec3 f_W = nodes_[i]->getExternalForceGlobal().tail<3>();
+      const Vec3 v_WB = nodes_[i]->getLinearVelocity() + (scenario_.gravity + f_W / body.mass) * dt;
+      nodes_[i]->getShapeNode(0)->getDynamicsAspect()->setFirstFrictionDirection(v_WB);
     }
   }
 

@@ -143,7 +143,8 @@ class Simulation {
     Contact::setConstraintForceMixing(request_.matched() ? 1e-7 : 1e-5);
     for (auto& [node, body] : sliding_) {
       node->getDynamicsAspect()->setFirstFrictionDirectionFrame(dynamics::Frame::World());
-      node->getDynamicsAspect()->setFirstFrictionDirection(body->getLinearVelocity());
+      node->getDynamicsAspect()->setFirstFrictionDirection(body->getLinearVelocity() +
+                                                           world_->getGravity() * request_.dt);
     }
     world_->step();
   }
