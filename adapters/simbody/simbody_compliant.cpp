@@ -9,7 +9,6 @@
 #include <simmath/RungeKuttaMersonIntegrator.h>
 #include <simmath/TimeStepper.h>
 
-#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -37,15 +36,20 @@ const KnobTable<Knobs>& knob_table() {
           .choose(&Knobs::contact_integrator, "contact_integrator", kMethods, "merson", "cpodes",
                   "the same for scenarios with contact, which a small e makes stiff")
           .add(&Knobs::accuracy, "accuracy", 1e-3, 1e-9, "1", "relative error that one step of the integrator may make")
+          .at_least(1e-15)
           .add(&Knobs::constraint_tolerance, "constraint_tolerance", 1e-4, 1e-10, "m, rad, m/s and rad/s",
                "how far joints that are held by constraints may be off before they are projected back")
+          .at_least(1e-15)
           .add(&Knobs::stiffness, "stiffness", 1e7, 1e7, "Pa", "of the surfaces; about that of rubber")
+          .at_least(1e-15)
           .add(&Knobs::dissipation, "dissipation", 1.0, 1e6, "s/m",
                "Hunt and Crossley's c of the surfaces: slow impacts have e = 1 - c v, fast ones part with less than "
                "1/c; "
                "e = 0 means c without bound, and Simbody's own rule (1 - e)/v at 1 m/s gives 1")
+          .at_least(0)
           .add(&Knobs::transition_speed, "friction_transition_speed", 0.01, 1e-4, "m/s",
-               "slower sliding has less friction: what should stick creeps at up to this speed");
+               "slower sliding has less friction: what should stick creeps at up to this speed")
+          .at_least(1e-15);
   return table;
 }
 
@@ -57,7 +61,8 @@ class CompliantWorld final : public World {
     contact_.setTransitionVelocity(knobs.transition_speed);
     if (scenario.contact) add_surfaces(scenario, knobs);
     const SimTK::State start = model_.begin(scenario);
-    if ((scenario.contact ? knobs.contact_integrator : knobs.integrator) == Method::kMerson) {
+    const Method method = scenario.contact ? knobs.contact_integrator : knobs.integrator;
+    if (method == Method::kMerson || start.getNU() == 0) {  // the implicit one aborts where nothing moves
       integrator_ = std::make_unique<SimTK::RungeKuttaMersonIntegrator>(model_.system());
     } else {
       integrator_ = std::make_unique<SimTK::CPodesIntegrator>(model_.system());
@@ -74,11 +79,10 @@ class CompliantWorld final : public World {
   void apply(std::span<const Wrench> wrenches) override { push(wrenches, true); }
 
   void step(double dt) override {
-    if (!(dt > 0 && std::isfinite(dt))) throw std::invalid_argument("the step must be > 0 s, is " + shortest(dt));
-    const double end = integrator_->getTime() + dt;
+    const double end = SimbodyModel::end_of_step(integrator_->getTime(), dt);
     stepper_->stepTo(end);
     if (integrator_->getTime() != end) throw std::runtime_error("the integrator stopped before the end of the step");
-    if (pushed_) push(still_, false);  // Simbody keeps forces until they are changed
+    if (pushed_) push(still_, false);
   }
 
   void read(std::span<BodyState> states) const override { model_.read(integrator_->getState(), states); }
@@ -136,33 +140,12 @@ class CompliantWorld final : public World {
   bool pushed_ = false;
 };
 
-class CompliantEngine final : public Engine {
- public:
-  CompliantEngine() {
-    info_.name = "simbody-compliant";
-    info_.library = "Simbody";
-    info_.version = simbody_version();
-    info_.scheme = "Runge-Kutta-Merson with error control within each step";
-    info_.features = {Feature::kSpatial,      Feature::kForce,           Feature::kTorque,
-                      Feature::kSphereSphere, Feature::kSphereHalfSpace, Feature::kBoxHalfSpace,
-                      Feature::kFriction,     Feature::kBallJoint,       Feature::kHinge,
-                      Feature::kSlider,       Feature::kFixedJoint,      Feature::kDistanceJoint,
-                      Feature::kJointLoop,    Feature::kJointsAndContact};
-    info_.settings = knob_table().rows();
-  }
-
-  const EngineInfo& info() const override { return info_; }
-
-  std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
-    return std::make_unique<CompliantWorld>(scenario, knob_table().read(settings));
-  }
-
- private:
-  EngineInfo info_;
-};
-
 }  // namespace
 
-std::unique_ptr<Engine> make_simbody_compliant() { return std::make_unique<CompliantEngine>(); }
+std::vector<Setting> simbody_compliant_settings() { return knob_table().rows(); }
+
+std::unique_ptr<World> make_simbody_compliant(const Scenario& scenario, const Settings& settings) {
+  return std::make_unique<CompliantWorld>(scenario, knob_table().read(settings));
+}
 
 }  // namespace plumbline

@@ -6,6 +6,7 @@
 #include <simbody/internal/Constraint_Weld.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "plumbline/adapters/joint_tree.hpp"
@@ -150,9 +151,18 @@ void SimbodyModel::drop_void_constraints(SimTK::State& state) const {
   for (SimTK::ConstraintIndex k(0); k < matter_.getNumConstraints(); ++k) matter_.getConstraint(k).disable(state);
 }
 
+double SimbodyModel::end_of_step(double now, double dt) {
+  if (dt > 0 && std::isfinite(dt) && now + dt > now) return now + dt;
+  throw std::invalid_argument("a step of " + shortest(dt) + " s at " + shortest(now) + " s does not lead forward");
+}
+
 void SimbodyModel::apply(SimTK::State& state, std::span<const Wrench> wrenches) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (is_fixed(i)) continue;
+    // Contacts would end the process over it.
+    if (!wrenches[i].f_W.allFinite() || !wrenches[i].tau_W.allFinite()) {
+      throw std::invalid_argument("the force on body number " + std::to_string(i + 1) + " is not finite");
+    }
     wrenches_.setOneBodyForce(state, matter_.getMobilizedBody(bodies_[i]),
                               {simbody_vector(wrenches[i].tau_W), simbody_vector(wrenches[i].f_W)});
   }

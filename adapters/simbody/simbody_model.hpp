@@ -34,6 +34,9 @@ class SimbodyModel {
   // Call when bodies, contacts and constraints are complete. The state holds the scenario's initial one.
   SimTK::State begin(const Scenario& scenario);
 
+  // Simbody aborts the process on the way back in time. Throws std::invalid_argument.
+  static double end_of_step(double now, double dt);
+  // Simbody keeps forces until they are changed. Throws std::invalid_argument for one that is not finite.
   void apply(SimTK::State& state, std::span<const Wrench> wrenches) const;
   void read(const SimTK::State& state, std::span<BodyState> states) const;
 

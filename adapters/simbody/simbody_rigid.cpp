@@ -6,9 +6,7 @@
 #include <simbody/internal/PLUSImpulseSolver.h>
 #include <simbody/internal/SemiExplicitEulerTimeStepper.h>
 
-#include <cmath>
 #include <iostream>
-#include <stdexcept>
 
 #include "plumbline/adapters/knob_table.hpp"
 #include "simbody_rows.hpp"
@@ -38,8 +36,10 @@ const KnobTable<Knobs>& knob_table() {
                   "Gauss-Seidel")
           .add(&Knobs::solver_tolerance, "solver_tolerance", 1e-10, 1e-12, "m/s",
                "speed that the solver may leave across a contact (Simbody's own: plus 1e-10, pgs 1e-6)")
+          .at_least(0)
           .add(&Knobs::solver_iterations, "solver_iterations", 20, 1000, "",
                "sweeps or Newton steps of the solver at most (Simbody's own: plus 20, pgs 100)")
+          .at_least(1)
           .choose(&Knobs::restitution, "restitution_model",
                   {{"poisson", Stepper::Poisson}, {"newton", Stepper::Newton}, {"none", Stepper::NoRestitution}},
                   "poisson", "newton", "e as a ratio of impulses or, as scenarios state it, of velocities")
@@ -49,6 +49,7 @@ const KnobTable<Knobs>& knob_table() {
               "simultaneous", "simultaneous", "whether contacts that are hit together answer together")
           .add(&Knobs::induced_impact_rounds, "induced_impact_rounds", 5, 5, "",
                "rounds per step of impacts that are not simultaneous")
+          .at_least(1)
           .choose(&Knobs::projection, "position_projection",
                   {{"bilateral", Stepper::Bilateral},
                    {"unilateral", Stepper::Unilateral},
@@ -59,12 +60,16 @@ const KnobTable<Knobs>& knob_table() {
                "takes penetration back once more, by Simbody's own projection of positions")
           .add(&Knobs::constraint_tolerance, "constraint_tolerance", 1e-3, 1e-9, "m and m/s",
                "distance at which bodies count as touching, and twice it the least impact speed with a rebound")
+          .at_least(0)
           .add(&Knobs::capture_speed, "impact_capture_speed", 0.0, 0.0, "m/s",
                "slower impacts have e = 0; at least twice the constraint tolerance")
+          .at_least(0)
           .add(&Knobs::min_restitution_speed, "impact_min_restitution_speed", 0.0, 0.0, "m/s",
                "between the capture speed and this one e falls from 1 to its stated value")
+          .at_least(0)
           .add(&Knobs::transition_speed, "friction_transition_speed", 0.0, 0.0, "m/s",
-               "slower sliding may stick; at least twice the constraint tolerance");
+               "slower sliding may stick; at least twice the constraint tolerance")
+          .at_least(0);
   return table;
 }
 
@@ -114,14 +119,13 @@ class RigidWorld final : public World {
   }
 
   void step(double dt) override {
-    // Going back in time would abort the process.
-    if (!(dt > 0 && std::isfinite(dt))) throw std::invalid_argument("the step must be > 0 s, is " + shortest(dt));
+    const double end = SimbodyModel::end_of_step(stepper_.getTime(), dt);
     {
       const Quiet quiet;
-      stepper_.stepTo(stepper_.getTime() + dt);
+      stepper_.stepTo(end);
     }
     if (project_after_step_) project();
-    if (pushed_) model_.apply(stepper_.updState(), still_);  // Simbody keeps forces until they are changed
+    if (pushed_) model_.apply(stepper_.updState(), still_);
     pushed_ = false;
   }
 
@@ -158,10 +162,10 @@ class RigidWorld final : public World {
       for (std::size_t j = i + 1; j < scenario.bodies.size(); ++j) {
         const Body &a = scenario.bodies[i], &b = scenario.bodies[j];
         if ((a.fixed && b.fixed) || joined(scenario, i, j)) continue;
-        if (std::holds_alternative<HalfSpace>(a.shape)) {
-          add_on_plane(i, j, b, *scenario.contact);
-        } else if (std::holds_alternative<HalfSpace>(b.shape)) {
-          add_on_plane(j, i, a, *scenario.contact);
+        if (const auto* half_a = std::get_if<HalfSpace>(&a.shape)) {
+          add_on_plane(*half_a, i, j, b, *scenario.contact);
+        } else if (const auto* half_b = std::get_if<HalfSpace>(&b.shape)) {
+          add_on_plane(*half_b, j, i, a, *scenario.contact);
         } else {
           const double e = scenario.contact->restitution, mu = scenario.contact->friction;
           model_.matter().adoptUnilateralContact(new SimTK::SphereSphereContact(
@@ -177,18 +181,19 @@ class RigidWorld final : public World {
     return body.fixed ? simbody_vector(body.initial.p_WB) : SimTK::Vec3(0);
   }
 
-  // A body without mass at the half-space's own place, since the contacts forget the height of their plane.
+  // What the plane of a half-space is fixed to. The contacts forget the height of their plane, so one that is not
+  // through the origin of the ground gets a body without mass at its own place.
   SimTK::MobilizedBodyIndex surface(const Body& body) {
     const auto* half = std::get_if<HalfSpace>(&body.shape);
-    if (half == nullptr) return {};
-    const SimTK::Rotation R(SimTK::UnitVec3(simbody_vector(half->normal)), SimTK::ZAxis);
-    return SimTK::MobilizedBody::Weld(model_.matter().updGround(), {R, simbody_vector(body.initial.p_WB)},
+    if (half == nullptr || half->normal.dot(body.initial.p_WB) == 0) return SimTK::MobilizedBodyIndex(0);
+    return SimTK::MobilizedBody::Weld(model_.matter().updGround(), simbody_vector(body.initial.p_WB),
                                       SimTK::Body::Massless(), SimTK::Transform());
   }
 
-  void add_on_plane(std::size_t plane, std::size_t i, const Body& body, const ContactMaterial& material) {
+  void add_on_plane(const HalfSpace& half_space, std::size_t plane, std::size_t i, const Body& body,
+                    const ContactMaterial& material) {
     const double e = material.restitution, mu = material.friction;
-    const SimTK::UnitVec3 n(SimTK::ZAxis);
+    const SimTK::UnitVec3 n(simbody_vector(half_space.normal));
     SimTK::MobilizedBody &ground = model_.matter().updMobilizedBody(planes_[plane]), &mobod = model_.body(i);
     if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
       model_.matter().adoptUnilateralContact(
@@ -207,39 +212,19 @@ class RigidWorld final : public World {
   }
 
   SimbodyModel model_;
-  std::vector<SimTK::MobilizedBodyIndex> planes_;  // of the half-spaces among the bodies
+  std::vector<SimTK::MobilizedBodyIndex> planes_;  // for each body that is a half-space
   Stepper stepper_;
   bool project_after_step_;
   std::vector<Wrench> still_;  // no force on anything
   bool pushed_ = false;
 };
 
-class RigidEngine final : public Engine {
- public:
-  RigidEngine() {
-    info_.name = "simbody-rigid";
-    info_.library = "Simbody";
-    info_.version = simbody_version();
-    info_.scheme = "semi-implicit Euler";
-    info_.features = {Feature::kSpatial,         Feature::kForce,        Feature::kTorque,      Feature::kSphereSphere,
-                      Feature::kSphereHalfSpace, Feature::kBoxHalfSpace, Feature::kRestitution, Feature::kFriction,
-                      Feature::kBallJoint,       Feature::kHinge,        Feature::kSlider,      Feature::kFixedJoint,
-                      Feature::kJointsAndContact};
-    info_.settings = knob_table().rows();
-  }
-
-  const EngineInfo& info() const override { return info_; }
-
-  std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
-    return std::make_unique<RigidWorld>(scenario, knob_table().read(settings));
-  }
-
- private:
-  EngineInfo info_;
-};
-
 }  // namespace
 
-std::unique_ptr<Engine> make_simbody_rigid() { return std::make_unique<RigidEngine>(); }
+std::vector<Setting> simbody_rigid_settings() { return knob_table().rows(); }
+
+std::unique_ptr<World> make_simbody_rigid(const Scenario& scenario, const Settings& settings) {
+  return std::make_unique<RigidWorld>(scenario, knob_table().read(settings));
+}
 
 }  // namespace plumbline
