@@ -4,6 +4,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <memory>
+#include <stdexcept>
 
 #include "plumbline/core/body.hpp"
 
@@ -33,6 +34,13 @@ inline std::unique_ptr<btCollisionShape> bullet_shape(const Body& body) {
 inline btTransform bullet_pose(const Body& body) {
   const bool half_space = std::holds_alternative<HalfSpace>(body.shape);
   return btTransform(quaternion(half_space ? Quat(Quat::Identity()) : body.initial.q_WB), vector(body.initial.p_WB));
+}
+
+// Bullet takes a body whose bounding box is larger than 1e6 m out of the simulation, and says so on standard output at
+// most. A run that went on from there would be a wrong one.
+inline void require_simulated(const btCollisionObject& object) {
+  if (object.getActivationState() != DISABLE_SIMULATION) return;
+  throw std::runtime_error("Bullet took a body out of the simulation: its bounding box is larger than 1e6 m");
 }
 
 }  // namespace plumbline

@@ -48,6 +48,7 @@ class BulletWorld final : public World {
   void step(double dt) override {
     if (!(dt > 0)) throw std::invalid_argument("dt must be > 0, is " + shortest(dt));
     world_.stepSimulation(real(dt), 0);
+    for (const Resident& r : residents_) require_simulated(*r.body);
   }
 
   void read(std::span<BodyState> states) const override {
@@ -142,6 +143,7 @@ class BulletEngine final : public Engine {
   const EngineInfo& info() const override { return info_; }
 
   std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
+    refuse_ranges(scenario);
     return std::make_unique<BulletWorld>(scenario, knobs_.read(settings));
   }
 

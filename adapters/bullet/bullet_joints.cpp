@@ -27,8 +27,14 @@ std::unique_ptr<btTypedConstraint> slider(const Joint& joint, btRigidBody& a, bt
 
 }  // namespace
 
+void refuse_ranges(const Scenario& scenario) {
+  for (const Joint& joint : scenario.joints) {
+    if (!joint.range) continue;
+    throw std::invalid_argument("joint '" + joint.name + "' has a range, which is not handed to Bullet");
+  }
+}
+
 std::unique_ptr<btTypedConstraint> bullet_joint(const Joint& joint, btRigidBody& a, btRigidBody& b) {
-  if (joint.range) throw std::invalid_argument("joint '" + joint.name + "' has a range, which is not handed to Bullet");
   switch (joint.kind) {
     case JointKind::kBall:
       return std::make_unique<btPoint2PointConstraint>(a, b, vector(joint.on_a.anchor), vector(joint.on_b.anchor));

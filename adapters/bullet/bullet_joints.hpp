@@ -5,11 +5,14 @@
 
 #include <memory>
 
-#include "plumbline/core/joints/joint.hpp"
+#include "plumbline/core/scenario.hpp"
 
 namespace plumbline {
 
-// `a` is Bullet's own fixed body for a joint to the world. Throws std::invalid_argument for a joint with a range.
+// Throws std::invalid_argument, naming the joint, when one has a range: those are not handed to Bullet.
+void refuse_ranges(const Scenario& scenario);
+
+// `a` is Bullet's own fixed body for a joint to the world.
 std::unique_ptr<btTypedConstraint> bullet_joint(const Joint& joint, btRigidBody& a, btRigidBody& b);
 
 }  // namespace plumbline

@@ -9,8 +9,9 @@
 #include <stdexcept>
 
 #include "bullet_conversions.hpp"
+#include "bullet_joints.hpp"
 #include "bullet_knobs.hpp"
-#include "plumbline/adapters/joint_tree.hpp"
+#include "bullet_tree.hpp"
 
 namespace plumbline {
 namespace {
@@ -42,65 +43,6 @@ KnobTable<MultibodyKnobs> knob_table() {
            "stays");
 }
 
-// The joint that a link hangs by, with where things stand now as its zero.
-struct Hanging {
-  btQuaternion parent_to_link;
-  btVector3 pivot_on_parent, pivot_to_link;  // in the parent's axes, in the link's axes
-  btVector3 axis;                            // in the link's axes
-};
-
-Hanging hanging(const Scenario& scenario, const Joint& joint) {
-  const BodyState parent = initial_state_of(scenario, joint.a), link = initial_state_of(scenario, joint.b);
-  const Vec3 pivot_W = link.p_WB + link.q_WB * joint.on_b.anchor;
-  return {quaternion(link.q_WB.conjugate() * parent.q_WB), vector(parent.q_WB.conjugate() * (pivot_W - parent.p_WB)),
-          vector(-joint.on_b.anchor), vector(joint.on_b.axis())};
-}
-
-// Link number `i` of `tree`, hanging from link `parent`, -1 for the base.
-void set_up_link(btMultiBody& tree, int i, int parent, const Scenario& scenario, const TreeLink& link) {
-  const Body& body = scenario.bodies[link.body];
-  const Hanging h = hanging(scenario, *link.joint);
-  const btScalar mass = real(body.mass);
-  const btVector3 inertia = vector(body.inertia);
-  switch (link.joint->kind) {
-    case JointKind::kBall:
-      return tree.setupSpherical(i, mass, inertia, parent, h.parent_to_link, h.pivot_on_parent, h.pivot_to_link, true);
-    case JointKind::kHinge:
-      return tree.setupRevolute(i, mass, inertia, parent, h.parent_to_link, h.axis, h.pivot_on_parent, h.pivot_to_link,
-                                true);
-    case JointKind::kSlider:
-      return tree.setupPrismatic(i, mass, inertia, parent, h.parent_to_link, h.axis, h.pivot_on_parent, h.pivot_to_link,
-                                 true);
-    case JointKind::kFixed:
-      return tree.setupFixed(i, mass, inertia, parent, h.parent_to_link, h.pivot_on_parent, h.pivot_to_link);
-    case JointKind::kDistance:
-      break;
-  }
-  throw std::logic_error("a rod is no joint of a tree");
-}
-
-void set_initial_rate(btMultiBody& tree, int i, const Scenario& scenario, const Joint& joint) {
-  if (joint.kind == JointKind::kHinge || joint.kind == JointKind::kSlider) {
-    tree.setJointVel(i, real(initial_rate(scenario, joint)));
-  } else if (joint.kind == JointKind::kBall) {
-    const btVector3 w = vector(initial_relative_rotation(scenario, joint));
-    tree.setJointVelMultiDof(i, static_cast<const btScalar*>(w));
-  }
-}
-
-// The links of each tree, parents first.
-std::vector<std::vector<TreeLink>> trees_of(const JointTree& forest, std::size_t body_count) {
-  std::vector<std::vector<TreeLink>> trees;
-  std::vector<std::size_t> tree_of(body_count);
-  for (const TreeLink& link : forest.links) {
-    const bool root = !link.joint || link.joint->a == kWorld;
-    if (root) trees.emplace_back();
-    tree_of[link.body] = root ? trees.size() - 1 : tree_of[link.joint->a];
-    trees[tree_of[link.body]].push_back(link);
-  }
-  return trees;
-}
-
 class MultibodyWorld final : public World {
  public:
   MultibodyWorld(const Scenario& scenario, const MultibodyKnobs& knobs)
@@ -112,7 +54,7 @@ class MultibodyWorld final : public World {
       if (scenario.bodies[i].fixed) add_fixed(i, scenario.bodies[i]);
     }
     places_.resize(scenario.bodies.size());
-    for (const auto& links : trees_of(joint_tree(scenario), scenario.bodies.size())) add_tree(scenario, knobs, links);
+    for (const auto& links : bullet_trees(scenario)) add_tree(scenario, knobs, links);
   }
 
   ~MultibodyWorld() override {
@@ -140,6 +82,7 @@ class MultibodyWorld final : public World {
   void step(double dt) override {
     if (!(dt > 0)) throw std::invalid_argument("dt must be > 0, is " + shortest(dt));
     world_.stepSimulation(real(dt), 0);
+    for (const auto& collider : colliders_) require_simulated(*collider);
   }
 
   void read(std::span<BodyState> states) const override {
@@ -280,11 +223,7 @@ class MultibodyEngine final : public Engine {
   const EngineInfo& info() const override { return info_; }
 
   std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
-    for (const Joint& joint : scenario.joints) {
-      if (joint.range) {
-        throw std::invalid_argument("joint '" + joint.name + "' has a range, which is not handed to Bullet");
-      }
-    }
+    refuse_ranges(scenario);
     return std::make_unique<MultibodyWorld>(scenario, knobs_.read(settings));
   }
 
