@@ -22,6 +22,9 @@ std::string text(const char* format, ...) {
   return line;
 }
 
+// The direction +y as the turn from +z gives it in doubles: z is one unit in the last place of y.
+constexpr const char* kHingeAboutY = "<joint type='hinge' pos='-1 0 0' axis='0 1 2.220446049250313e-16'/>";
+
 struct Body {
   const char* name;
   double p[3];
@@ -89,7 +92,7 @@ bool make_scene(const std::string& name, Scene& s) {
   } else if (name == "joint/pendulum") {
     s.duration = 2;
     s.gravity[2] = -g;
-    s.worldbody = ball("bob", 1, 0, 0, 0.1, 1, "<joint type='hinge' pos='-1 0 0' axis='0 1 0'/>");
+    s.worldbody = ball("bob", 1, 0, 0, 0.1, 1, kHingeAboutY);
     s.bodies = {{"bob", {1, 0, 0}, {0, 0, 0}, {0, 0, 0}, false, true}};
   } else if (name == "friction/incline/mu=0.2") {
     const double slope = 20 * kPi / 180;
