@@ -56,7 +56,8 @@ const KnobTable<Knobs>& knob_table() {
           .choose(&Knobs::solver, "solver", {{"pgs", mjSOL_PGS}, {"cg", mjSOL_CG}, {"newton", mjSOL_NEWTON}}, "newton",
                   "newton", "of the convex problem of each step")
           .add(&Knobs::iterations, "iterations", 100, 100, "", "of the solver, at most")
-          .add(&Knobs::tolerance, "tolerance", 1e-8, 0.0, "1", "improvement at which the solver stops");
+          .add(&Knobs::tolerance, "tolerance", 1e-8, 0.0, "1",
+               "improvement at which the solver stops; at 1e-8 stiff contacts keep momentum to 1e-13 only");
   return table;
 }
 
