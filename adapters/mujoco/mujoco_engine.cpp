@@ -47,8 +47,9 @@ const KnobTable<Knobs>& knob_table() {
           .add(&Knobs::recovery_time, "recovery_time", 0.25, 0.25, "s",
                "of one_step: contacts push penetration out with (1 - e) depth/recovery_time where there is gravity; "
                "without it nothing rests, and the correction would only be a rebound")
-          .add(&Knobs::drift_share, "drift_share", 0.2, 0.2, "1",
-               "of one_step: share of the drift of a closed loop or a rod that a step corrects")
+          .add(&Knobs::drift_share, "drift_share", 1, 1, "1",
+               "of one_step: share of the drift of a closed loop or a rod that a step corrects; MuJoCo leaves out the "
+               "acceleration that turning ties need, so a rod drifts by v^2 dt^2/(length share)")
           .choose(&Knobs::cone, "cone", {{"pyramidal", mjCONE_PYRAMIDAL}, {"elliptic", mjCONE_ELLIPTIC}}, "pyramidal",
                   "elliptic", "shape of the friction law; the pyramid's edges lie within Coulomb's cone")
           .add(&Knobs::friction_impedance, "friction_impedance", 1, 1, "1",
