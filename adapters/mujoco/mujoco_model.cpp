@@ -102,7 +102,7 @@ class ModelText {
       const Body& body = scenario_.bodies[link.body];
       const BodyState from = initial_state_of(scenario_, parent), &to = body.initial;
       text += "<body" + attribute("name", mujoco_name(link.body)) +
-              attribute("pos", Vec3(from.q_WB.conjugate() * (to.p_WB - from.p_WB))) +
+              attribute("pos", from.q_WB.conjugate() * (to.p_WB - from.p_WB)) +
               attribute("quat", from.q_WB.conjugate() * to.q_WB) + "><inertial pos=\"0 0 0\"" +
               attribute("mass", {body.mass}) + attribute("diaginertia", body.inertia) + "/>" + joint(link) +
               geom(body, link.body) + children_of(link.body) + "</body>";
