@@ -63,8 +63,8 @@ void print_matrix(const ConformanceTable& table, const ConsoleStyle& style, std:
 }
 
 void print_result(const ConformanceResult& result, const ConsoleStyle& style, bool verbose, std::ostream& out) {
-  std::string text =
-      fmt::format("{}.{} {}: {}", result.engine, profile_name(result.profile), result.check, result.text);
+  std::string text = fmt::format("{}.{} {}: {}", result.engine, profile_name(result.profile), result.check,
+                                 result.text.empty() ? conformance_meaning(result.verdict) : result.text);
   if (!result.why.empty()) text += "; known: " + result.why;
   // The last words of a process that died say more than its signal.
   if (!result.messages.empty() && (verbose || result.verdict == Verdict::kCrashed)) {

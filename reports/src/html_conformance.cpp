@@ -41,6 +41,16 @@ std::string header(const Report& report, const ConformanceTable& table) {
   return html + fmt::format("plumbline {}</p>\n</header>\n", escaped(report.tool_version));
 }
 
+// May be broken behind each underscore, where the column is narrow.
+std::string breakable(const std::string& name) {
+  std::string html;
+  for (const char c : escaped(name)) {
+    html += c;
+    if (c == '_') html += "<wbr>";
+  }
+  return html;
+}
+
 // The anchor of a failure in the list below the matrix.
 std::string failure_id(const ConformanceTable& table, const ConformanceResult* result) {
   const auto at = std::find(table.failures.begin(), table.failures.end(), result);
@@ -89,8 +99,8 @@ std::string matrix(const ConformanceTable& table) {
       html += fmt::format("<tr><th scope=\"rowgroup\" class=\"theme\">{}</th></tr>\n", escaped(check.theme));
       theme = check.theme;
     }
-    html += fmt::format("<tr><th scope=\"row\"><a href=\"#check-{0}\" title=\"{1}\">{0}</a></th>", escaped(check.name),
-                        escaped(check.question));
+    html += fmt::format("<tr><th scope=\"row\"><a href=\"#check-{0}\" title=\"{1}\">{2}</a></th>", escaped(check.name),
+                        escaped(check.question), breakable(check.name));
     for (const std::string& engine : table.engines) {
       for (const Profile profile : table.profiles) html += cell(table, engine, profile, check);
     }
@@ -106,7 +116,7 @@ std::string found(const ConformanceTable& table) {
       "<div class=\"scroll\"><table><thead><tr><th>verdict</th><th>engine</th><th>profile</th><th>check</th>"
       "<th>seen and wanted</th><th>known cause</th></tr></thead><tbody>\n";
   for (const ConformanceResult* r : table.failures) {
-    std::string text = escaped(r->text);
+    std::string text = escaped(r->text.empty() ? conformance_meaning(r->verdict) : r->text);
     if (!r->messages.empty()) {
       text += "<details><summary>what the engine printed</summary><pre>" + escaped(r->messages) + "</pre></details>";
     }

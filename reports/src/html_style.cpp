@@ -53,6 +53,7 @@ overflow:hidden;text-overflow:ellipsis}
 .matrix td b{display:block;line-height:1.1}.matrix td span{font-size:.78rem;white-space:nowrap}
 .matrix.checks td{min-width:1.7rem}.matrix.checks td>span{display:block;padding:.15rem .2rem}
 .matrix.checks td a{padding:.15rem .2rem}.matrix.checks .up{writing-mode:vertical-rl;transform:rotate(180deg)}
+.matrix.checks thead th{vertical-align:bottom}
 .matrix.checks tbody .theme{padding-top:.8rem;font-weight:600;color:var(--soft)}
 td.wide{min-width:20rem;max-width:48rem}tr:target>*{background:var(--panel)}
 .tabs>input{position:absolute;opacity:0;pointer-events:none}
@@ -79,7 +80,7 @@ details{margin:.5rem 0}summary{cursor:pointer}
 .heat td{text-align:right;white-space:nowrap}.heat td.diag{color:var(--soft)}
 .pair{display:flex;flex-wrap:wrap;gap:0 2.5rem}
 @media(max-width:40rem){body{padding:.6rem .7rem 3rem}dl{grid-template-columns:1fr}dd{margin-bottom:.3rem}
-.matrix tbody th{max-width:9rem}}
+.matrix tbody th{max-width:9rem}.matrix.checks tbody th{white-space:normal;max-width:11rem;line-height:1.25}}
 @media print{.panels>section{display:block}.tabs>label{display:none}body{max-width:none}}
 )css";
 

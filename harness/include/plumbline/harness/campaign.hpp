@@ -32,7 +32,7 @@ struct EngineRow {
   EngineInfo info;
   std::size_t program = 0;
   std::vector<Deviation> deviations;
-  std::vector<KnownFailure> known_failures;
+  std::vector<KnownFailure> known_failures = {};
   std::string worker_name = info.name;  // what the worker calls it: info.name unless settings were changed
   Settings changed = {};                // these, over those of the profile
 };
