@@ -46,7 +46,12 @@ class Cli : public ::testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "out.txt"), text_of(folder_ / "err.txt")};
   }
 
+  // Most fakes would fail the conformance kit, or keep it busy: runs go without it unless a test says otherwise.
   Outcome with_fakes(const std::string& arguments) {
+    const bool runs = arguments.starts_with("run");
+    return all_with_fakes(runs ? arguments + " --no-conformance" : arguments);
+  }
+  Outcome all_with_fakes(const std::string& arguments) {
     return plumbline(arguments, "PLUMBLINE_ENGINE_PATH='" PLUMBLINE_FAKES "'");
   }
 
@@ -88,7 +93,7 @@ reason = "first order"
 TEST_F(Cli, HelpTeaches) {
   const Outcome help = plumbline("--help");
   EXPECT_EQ(help.code, kExitPass);
-  for (const char* word : {"run", "list", "compare", "doctor", "Exit codes", "plumbline run -f"}) {
+  for (const char* word : {"run", "list", "compare", "doctor", "adapter", "Exit codes", "plumbline run -f"}) {
     EXPECT_TRUE(contains(help.out, word)) << word;
   }
   EXPECT_EQ(plumbline("run --help").code, kExitPass);
@@ -229,6 +234,43 @@ TEST_F(Cli, ABrokenScenarioFileIsNamedWithItsPlace) {
   const std::string undefined = complaint("dt*10", "dt*g");
   EXPECT_TRUE(contains(undefined, "my/fall.toml:22:9")) << undefined;
   EXPECT_TRUE(contains(undefined, "'g'")) << undefined;
+}
+
+TEST_F(Cli, AdapterTestHasAnExitCodeForEveryEnd) {
+  const std::string gravity = "adapter test -q -f gravity --timeout 1 ";
+  EXPECT_EQ(all_with_fakes(gravity + "fake-honest").code, kExitPass);
+  EXPECT_EQ(all_with_fakes(gravity + "fake-honest fake-gains-energy").code, kExitGateFailed);
+  EXPECT_EQ(all_with_fakes(gravity + "fake-honest,fake-aborts").code, kExitEngineError);
+  EXPECT_EQ(all_with_fakes(gravity + "fake-hangs").code, kExitEngineError);
+  EXPECT_EQ(all_with_fakes(gravity + "nonsense").code, kExitUsage);
+  EXPECT_EQ(all_with_fakes("adapter test fake-honest -f no_such_check").code, kExitNothingMatched);
+  EXPECT_EQ(all_with_fakes("adapter test --profile best").code, kExitUsage);
+  EXPECT_EQ(all_with_fakes("adapter").code, kExitUsage);
+}
+
+TEST_F(Cli, AdapterTestTellsWhatItSawAndWritesItDown) {
+  const Outcome outcome = all_with_fakes("adapter test fake-honest fake-aborts -f gravity -o out");
+  EXPECT_TRUE(contains(outcome.out, "fake-aborts.matched gravity_pulls_where_it_is_stated")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "signal 6")) << outcome.out;
+  const auto results = nlohmann::json::parse(text_of(folder_ / "out/conformance.json"));
+  EXPECT_EQ(results.at("conformance").size(), 4u);
+  EXPECT_TRUE(results.at("runs").empty());
+  EXPECT_TRUE(contains(text_of(folder_ / "out/conformance.html"), "gravity_pulls_where_it_is_stated"));
+  EXPECT_TRUE(contains(all_with_fakes("adapter test --list").out, "hinge_moves_as_stated"));
+}
+
+TEST_F(Cli, ARunPutsItsEnginesBeforeTheKitUnlessToldNotTo) {
+  // This fake has no rotation: the scenario does not notice, the kit does.
+  const std::string run = "run -e fake-honest -f falling_box --dt 0.02";
+  const Outcome whole = all_with_fakes(run);
+  EXPECT_EQ(whole.code, kExitGateFailed);
+  EXPECT_TRUE(contains(whole.out, "torque_echoes_the_inertia")) << whole.out;
+  const auto results = nlohmann::json::parse(text_of(folder_ / "plumbline-results/results.json"));
+  EXPECT_GT(results.at("conformance").size(), 40u);
+  EXPECT_TRUE(contains(text_of(folder_ / "plumbline-results/report.html"), "./conformance.html"));
+  EXPECT_TRUE(fs::exists(folder_ / "plumbline-results/conformance.html"));
+  EXPECT_EQ(all_with_fakes(run + " --no-conformance").code, kExitPass);
+  EXPECT_FALSE(fs::exists(folder_ / "plumbline-results/conformance.html")) << "the page of another run was left";
 }
 
 TEST_F(Cli, CtrlCKeepsWhatThereIs) {

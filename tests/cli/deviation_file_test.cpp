@@ -13,7 +13,7 @@ namespace {
 
 class DeviationFile : public ::testing::Test {
  protected:
-  std::vector<Deviation> read(const std::string& text) {
+  DeviationLists read(const std::string& text) {
     std::ofstream(file_) << text;
     return read_deviations(file_);
   }
@@ -43,7 +43,7 @@ link = "a link"
 )";
 
 TEST_F(DeviationFile, GivesOneDeviationPerLimit) {
-  const auto deviations = read(kWhole);
+  const auto deviations = read(kWhole).deviations;
   ASSERT_EQ(deviations.size(), 2u);
   EXPECT_EQ(deviations[0].metric, "energy.max");
   EXPECT_TRUE(std::isinf(deviations[0].limit));
@@ -54,7 +54,48 @@ TEST_F(DeviationFile, GivesOneDeviationPerLimit) {
   EXPECT_EQ(deviations[1].place.line, 1);
 }
 
-TEST_F(DeviationFile, AnAbsentFileIsAnEmptyList) { EXPECT_TRUE(read_deviations("/nonexistent.toml").empty()); }
+TEST_F(DeviationFile, AnAbsentFileIsAnEmptyList) {
+  EXPECT_TRUE(read_deviations("/nonexistent.toml").deviations.empty());
+  EXPECT_TRUE(read_deviations("/nonexistent.toml").known_failures.empty());
+}
+
+const std::string kKnown = R"([[conformance]]
+check = "huge_speed_is_kept"
+engines = ["row", "other"]
+profile = "default"
+why = "the cause"
+link = "a link"
+
+[[conformance]]
+check = "friction_is_a_cone"
+why = "another"
+)";
+
+TEST_F(DeviationFile, GivesKnownFailuresOfChecks) {
+  const auto known = read(kWhole + "\n" + kKnown).known_failures;
+  ASSERT_EQ(known.size(), 2u);
+  EXPECT_EQ(known[0].check, "huge_speed_is_kept");
+  EXPECT_EQ(known[0].link, "a link");
+  EXPECT_TRUE(known[0].covers("other", Profile::kDefault, "huge_speed_is_kept"));
+  EXPECT_FALSE(known[0].covers("other", Profile::kMatched, "huge_speed_is_kept"));
+  EXPECT_FALSE(known[0].covers("third", Profile::kDefault, "huge_speed_is_kept"));
+  EXPECT_TRUE(known[1].covers("any", Profile::kMatched, "friction_is_a_cone"));
+  EXPECT_FALSE(known[1].covers("any", Profile::kMatched, "huge_speed_is_kept"));
+}
+
+TEST_F(DeviationFile, ComplainsAboutKnownFailuresWithThePlace) {
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    std::string text = kKnown;
+    text.replace(text.find(from), from.size(), to);
+    return complaint(text);
+  };
+  const std::string name = file_.string();
+  EXPECT_EQ(replaced("huge_speed_is_kept", "huge").find(name + ":2:9: there is no check 'huge'"), 0u);
+  EXPECT_EQ(replaced("why = \"the cause\"", "").find(name + ":1:1: a known failure must say why"), 0u);
+  EXPECT_EQ(replaced("check = \"friction_is_a_cone\"", "").find(name + ":8:1: a known failure must name"), 0u);
+  EXPECT_EQ(replaced("link =", "dt =").find(name + ":6:"), 0u);
+  EXPECT_EQ(replaced("[[conformance]]", "[[conformity]]").find(name + ":1:"), 0u);
+}
 
 TEST_F(DeviationFile, ComplainsWithThePlace) {
   const auto replaced = [&](const std::string& from, const std::string& to) {

@@ -99,6 +99,34 @@ TEST_F(WorkerPoolTest, StopsHandingOutWorkWhenAsked) {
   EXPECT_EQ(done, 3u);
 }
 
+TEST_F(WorkerPoolTest, CallsGoTheWayOfRunsAndCostTheirOwnAnswerOnly) {
+  const auto check = [](const std::string& engine, const std::string& name) {
+    return CallRequest{0, "conformance.run", {{"engine", engine}, {"profile", "matched"}, {"check", name}}};
+  };
+  const std::string gravity = "gravity_pulls_where_it_is_stated";
+  const std::vector<CallRequest> requests = {{0, "conformance.list", nlohmann::json::object()},
+                                             check("fake-honest", gravity),
+                                             check("fake-aborts", gravity),
+                                             check("fake-honest", "no_such_check"),
+                                             check("fake-throws", gravity),
+                                             {0, "no.such.method", {}},
+                                             check("fake-honest", gravity)};
+  std::map<std::size_t, CallOutcome> outcomes;
+  pool_.call(
+      requests, 2, WorkerPool::Seconds(30),
+      [&](std::size_t i, CallOutcome outcome) { outcomes[i] = std::move(outcome); }, stop_);
+  ASSERT_EQ(outcomes.size(), requests.size());
+  EXPECT_GT(outcomes[0].result.at("checks").size(), 20u);
+  EXPECT_EQ(outcomes[1].result.at("outcome"), "holds") << outcomes[1].result;
+  EXPECT_EQ(outcomes[2].end, End::kCrashed);
+  EXPECT_EQ(outcomes[3].end, End::kError);
+  EXPECT_NE(outcomes[3].reason.find("no_such_check"), std::string::npos) << outcomes[3].reason;
+  EXPECT_EQ(outcomes[4].end, End::kError);
+  EXPECT_EQ(outcomes[4].reason, "the solver lost its matrix");
+  EXPECT_EQ(outcomes[5].end, End::kError);
+  EXPECT_EQ(outcomes[6].end, End::kAnswered);
+}
+
 TEST(WorkerPool, AProgramThatIsNoWorkerIsNamedAndLeftOut) {
   const std::string folder = PLUMBLINE_BROKEN_WORKERS "/plumbline-engine-";
   const WorkerPool pool(

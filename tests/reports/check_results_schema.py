@@ -32,6 +32,10 @@ def broken():
     for key in ("tool", "environment", "engines", "missing_engines", "scenarios", "runs", "convergence", "divergence",
                 "wall_seconds", "interrupted"):
         yield f"no {key}", lambda d, k=key: d.pop(k)
+    for key in ("engine", "profile", "check", "verdict", "text", "why", "messages"):
+        yield f"an answer without {key}", lambda d, k=key: d["conformance"][0].pop(k)
+    yield "a check without a question", lambda d: d["conformance_checks"][0].pop("question")
+    yield "an answer that is no verdict", lambda d: d["conformance"][0].update(verdict="holds")
     yield "an unknown verdict", lambda d: first(d).update(verdict="maybe")
     yield "an unknown profile", lambda d: first(d).update(profile="tuned")
     yield "a dt of zero", lambda d: first(d).update(dt=0)

@@ -149,6 +149,35 @@ void add_collision(Report& report) {
   refused.settings = {{"a", 0.5}, {"b", true}, {"c", std::string("word")}, {"d", -kInfinity}};
 }
 
+void add_conformance(Report& report) {
+  report.conformance_checks = {
+      {"force_echoes_the_mass", "mass", "Does a force show the stated mass?", "16 roundings", false},
+      {"gravity_pulls", "forces", "Does gravity pull where it is stated: a < b && \"c\"?", "", false},
+      {"friction_is_a_cone", "forces", "Does friction brake equally in every direction?", "two steps' worth", true}};
+  for (const std::string engine : {"alpha", "beta-f32", kHostile}) {
+    for (const Profile p : {Profile::kDefault, Profile::kMatched}) {
+      for (const ConformanceCheck& check : report.conformance_checks) {
+        if (check.matched_only && p == Profile::kDefault) continue;
+        report.conformance.push_back({engine, p, check.name, Verdict::kPass, "", "", ""});
+      }
+    }
+  }
+  const auto set = [&](std::size_t i, Verdict v, const std::string& text, const std::string& why = "",
+                       const std::string& messages = "") {
+    report.conformance[i].verdict = v;
+    report.conformance[i].text = text;
+    report.conformance[i].why = why;
+    report.conformance[i].messages = messages;
+  };
+  set(1, Verdict::kFail, "the velocity after one step is (0, 0, 0.153), wanted (0, 0, -0.153) within 2.7e-16");
+  set(4, Verdict::kUnexpectedPass, "", "a pyramid (manual, section 3)");
+  set(5, Verdict::kCrashed, "killed by signal 6 (Aborted)", "", "line one\nassertion \"a < b\" failed\n");
+  set(9, Verdict::kExpectedFail, "the velocity is 2.7, wanted 2.26 within 0.02", "friction is a pyramid");
+  set(10, Verdict::kError, "no <b>&\"' here", "", "\x1b[31mred\x1b[0m \xFF");
+  set(13, Verdict::kTimedOut, "no answer within 30 s");
+  set(14, Verdict::kUnsupported, "the engine has no three dimensions");
+}
+
 void add_rest(Report& report) {
   RunResult r = run_of(std::string("odd/") + kHostile, "alpha", Profile::kMatched, 0.001, Verdict::kUnsupported);
   r.reason = "lacks contact of a box with a box";
@@ -202,6 +231,7 @@ Report literal_report() {
        {"alpha", "beta-f32", kHostile},
        {0, 1e-7, 2e-3, 1e-7, 0, 2e-3, 2e-3, 2e-3, 0}},
       {"collision/two_sphere/e=1", Profile::kDefault, 1.0 / 240, {"alpha", "beta-f32"}, {0, kNaN, kNaN, 0}}};
+  add_conformance(report);
   report.wall_seconds = 12.5;
   return report;
 }

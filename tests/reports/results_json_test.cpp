@@ -49,6 +49,31 @@ TEST(ResultsJson, ReadAndWrittenAgainGivesTheSameBytes) {
   }
 }
 
+TEST(ResultsJson, KeepsConformanceAndReadsFilesFromBeforeIt) {
+  const auto path = fresh_folder() / "results.json";
+  const Report written = literal_report();
+  write_results(written, path);
+  const Report read = read_results(path);
+  ASSERT_EQ(read.conformance_checks.size(), written.conformance_checks.size());
+  EXPECT_EQ(read.conformance_checks[2].tolerance, written.conformance_checks[2].tolerance);
+  EXPECT_TRUE(read.conformance_checks[2].matched_only);
+  ASSERT_EQ(read.conformance.size(), written.conformance.size());
+  for (std::size_t i = 0; i < read.conformance.size(); ++i) {
+    const ConformanceResult &a = written.conformance[i], &b = read.conformance[i];
+    EXPECT_EQ(a.engine, b.engine);
+    EXPECT_EQ(a.profile, b.profile);
+    EXPECT_EQ(a.check, b.check);
+    EXPECT_EQ(a.verdict, b.verdict);
+    EXPECT_EQ(a.text, b.text);
+    EXPECT_EQ(a.why, b.why);
+  }
+  const std::string text = file_text(path);
+  std::ofstream(path, std::ios::binary) << text.substr(0, text.find(",\n \"conformance_checks\"")) << "\n}\n";
+  const Report older = read_results(path);
+  EXPECT_TRUE(older.conformance.empty());
+  EXPECT_EQ(older.runs.size(), written.runs.size());
+}
+
 TEST(ResultsJson, KeepsEveryFieldOfARun) {
   const auto path = fresh_folder() / "results.json";
   const Report written = literal_report();
