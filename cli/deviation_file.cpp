@@ -20,7 +20,7 @@ class Reader {
  public:
   explicit Reader(std::string file) : file_(std::move(file)) {}
 
-  DeviationFile read() {
+  DeviationLists read() {
     toml::table root;
     try {
       root = toml::parse_file(file_);
@@ -152,12 +152,12 @@ class Reader {
   }
 
   std::string file_;
-  DeviationFile result_;
+  DeviationLists result_;
 };
 
 }  // namespace
 
-DeviationFile read_deviations(const std::filesystem::path& file) {
+DeviationLists read_deviations(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return {};
   return Reader(file.string()).read();
 }

@@ -9,12 +9,12 @@
 
 namespace plumbline {
 
-struct DeviationFile {
+struct DeviationLists {
   std::vector<Deviation> deviations;         // gates that runs miss: one per entry of a [[deviation]]'s `limits` table
   std::vector<KnownFailure> known_failures;  // checks that fail: one per [[conformance]]
 };
 
 // An absent file is two empty lists. Throws UsageError with file, line and column.
-DeviationFile read_deviations(const std::filesystem::path& file);
+DeviationLists read_deviations(const std::filesystem::path& file);
 
 }  // namespace plumbline

@@ -115,7 +115,7 @@ EngineInventory load_engines(const Installation& installation) {
       engines.missing.push_back({program.path.filename().string(), program.problem});
       continue;
     }
-    const DeviationFile listed = read_deviations(program.path.string() + ".deviations.toml");
+    const DeviationLists listed = read_deviations(program.path.string() + ".deviations.toml");
     for (const EngineInfo& info : program.engines) {
       // The first on the path wins, as with programs: an engine under test can stand in for the installed one.
       if (names.insert(info.name).second) engines.rows.push_back({info, p, listed.deviations, listed.known_failures});
