@@ -249,7 +249,7 @@ TEST_F(Cli, AdapterTestHasAnExitCodeForEveryEnd) {
 }
 
 TEST_F(Cli, AdapterTestTellsWhatItSawAndWritesItDown) {
-  const Outcome outcome = all_with_fakes("adapter test fake-honest fake-aborts -f gravity -o out");
+  const Outcome outcome = all_with_fakes("adapter test fake-honest fake-aborts -f gravity_pulls -o out");
   EXPECT_TRUE(contains(outcome.out, "fake-aborts.matched gravity_pulls_where_it_is_stated")) << outcome.out;
   EXPECT_TRUE(contains(outcome.out, "signal 6")) << outcome.out;
   const auto results = nlohmann::json::parse(text_of(folder_ / "out/conformance.json"));
