@@ -26,14 +26,14 @@ struct Knobs {
   double stiffness, dissipation, transition_speed;
 };
 
-const std::vector<std::pair<std::string, Method>> kMethods = {{"merson", Method::kMerson}, {"cpodes", Method::kCPodes}};
-
 const KnobTable<Knobs>& knob_table() {
+  const std::vector<std::pair<std::string, Method>> methods = {{"merson", Method::kMerson},
+                                                               {"cpodes", Method::kCPodes}};
   static const KnobTable<Knobs> table =
       KnobTable<Knobs>()
-          .choose(&Knobs::integrator, "integrator", kMethods, "merson", "merson",
+          .choose(&Knobs::integrator, "integrator", methods, "merson", "merson",
                   "merson: explicit Runge-Kutta of order 4 with error control; cpodes: implicit multistep")
-          .choose(&Knobs::contact_integrator, "contact_integrator", kMethods, "merson", "cpodes",
+          .choose(&Knobs::contact_integrator, "contact_integrator", methods, "merson", "cpodes",
                   "the same for scenarios with contact, which a small e makes stiff")
           .add(&Knobs::accuracy, "accuracy", 1e-3, 1e-9, "1", "relative error that one step of the integrator may make")
           .at_least(1e-15)
@@ -42,10 +42,10 @@ const KnobTable<Knobs>& knob_table() {
           .at_least(1e-15)
           .add(&Knobs::stiffness, "stiffness", 1e7, 1e7, "Pa", "of the surfaces; about that of rubber")
           .at_least(1e-15)
-          .add(&Knobs::dissipation, "dissipation", 1.0, 1e6, "s/m",
-               "Hunt and Crossley's c of the surfaces: slow impacts have e = 1 - c v, fast ones part with less than "
-               "1/c; "
-               "e = 0 means c without bound, and Simbody's own rule (1 - e)/v at 1 m/s gives 1")
+          .add(
+              &Knobs::dissipation, "dissipation", 1.0, 1e6, "s/m",
+              "Hunt and Crossley's c of the surfaces: slow impacts have e = 1 - c v, fast ones part with less than "
+              "1/c; for e = 0 Simbody's own rule (1 - e)/v gives 1 at 1 m/s, the stated problem wants it without bound")
           .at_least(0)
           .add(&Knobs::transition_speed, "friction_transition_speed", 0.01, 1e-4, "m/s",
                "slower sliding has less friction: what should stick creeps at up to this speed")

@@ -57,8 +57,8 @@ class SimbodyModel {
   SimTK::GeneralForceSubsystem forces_{system_};
   SimTK::Force::DiscreteForces wrenches_{forces_, matter_};
   std::vector<SimTK::MobilizedBodyIndex> bodies_;  // 0, the ground, for a body that is fixed
-  bool loops_closed_ = false;
-  std::vector<BodyState> fixed_;  // what read() says of bodies that never move
+  bool loops_closed_ = false;                      // by joints, without a rod
+  std::vector<BodyState> fixed_;                   // what read() says of bodies that never move
 };
 
 }  // namespace plumbline
