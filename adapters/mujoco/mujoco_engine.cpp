@@ -34,7 +34,7 @@ const KnobTable<Knobs>& knob_table() {
                   "solref", "one_step",
                   "what contacts and closed loops ask for: solref, the spring and damper of MuJoCo's parameter of that "
                   "name, the same for every material; one_step, the velocity that restitution states at the end of the "
-                  "step")
+                  "step, also along the surface where friction would hold: a contact has one damping")
           .add(&Knobs::time_constant, "time_constant", 0.02, 0.02, "s", "of solref; MuJoCo takes 2 dt at least")
           .add(&Knobs::damping_ratio, "damping_ratio", 1, 1, "1", "of solref")
           .add(&Knobs::impedance_min, "impedance_min", 0.9, 0.9999, "1",
