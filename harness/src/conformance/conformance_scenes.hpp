@@ -41,7 +41,7 @@ inline std::vector<BodyState> push(World& world, const Scenario& scenario, std::
 }
 
 inline bool same_bits(const std::vector<BodyState>& a, const std::vector<BodyState>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(BodyState)) == 0;
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(BodyState)) == 0);
 }
 
 inline Body ball(std::string name, double radius, double mass, const Vec3& p_WB, const Vec3& v_WB = Vec3::Zero()) {

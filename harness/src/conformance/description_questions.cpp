@@ -56,6 +56,20 @@ std::vector<Scenario> telling_scenes(const Interview& row) {
   return scenes;
 }
 
+// How a run ends: in states, or with what the engine said when it gave up, which some do in a scene of many contacts.
+struct End {
+  std::vector<BodyState> states;
+  std::string said;
+};
+End end_of(Interview& row, const Scenario& scenario, const Settings& settings, int steps) {
+  try {
+    return {run(*row.build(scenario, settings), scenario, kStep, steps), ""};
+  } catch (const std::runtime_error& error) {
+    return {{}, error.what()};
+  }
+}
+bool same_end(const End& a, const End& b) { return same_bits(a.states, b.states) && a.said == b.said; }
+
 void settings_act(Interview& row) {
   const Settings usual = settings_of(row.info(), Profile::kDefault),
                  matched = settings_of(row.info(), Profile::kMatched);
@@ -75,8 +89,7 @@ void settings_act(Interview& row) {
       }
     }
     if (acts) continue;
-    acts = !same_bits(run(*row.build(scenario, usual), scenario, kStep, kSteps),
-                      run(*row.build(scenario, matched), scenario, kStep, kSteps));
+    acts = !same_end(end_of(row, scenario, usual, kSteps), end_of(row, scenario, matched, kSteps));
   }
   row.expect(acts, "both profiles give the same bits in every scene: their settings are printed but not used");
 }
@@ -101,7 +114,7 @@ std::span<const Question> description_questions() { return kQuestions; }
 std::vector<Scenario> busy_scenes(const Interview& row, double shift) {
   Scenario scenario;
   scenario.gravity = Vec3(0, 0, -9.81);
-  scenario.contact = ContactMaterial{0.3, 0.4};
+  scenario.contact = ContactMaterial{row.has(Feature::kRestitution) ? 0.3 : 0, row.has(Feature::kFriction) ? 0.4 : 0};
   const std::vector<Body> ground = {half_space(Vec3::UnitZ())};
   const std::vector<Body> balls = {ball("ball", 0.2, 1, Vec3(shift, 0, 0.5), Vec3(1, 0, 0)),
                                    ball("other", 0.3, 3, Vec3(shift + 0.6, 0, 0.5), Vec3(-1, 0, 0))};

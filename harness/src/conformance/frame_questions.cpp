@@ -24,8 +24,8 @@ void initial_state_reads_back(Interview& row) {
   const auto states = states_of(*row.build(scenario), scenario);
   const double u = row.roundoff();
   row.within("position", states[0].p_WB, stated.p_WB, u * stated.p_WB.norm());
-  row.within("velocity", states[0].v_WB, stated.v_WB, u * stated.v_WB.norm());
-  // An angular velocity may be kept in body axes: a rotation and back is 16 roundings.
+  // Velocities may be kept in body axes: a rotation and back is 16 roundings.
+  row.within("velocity", states[0].v_WB, stated.v_WB, kOneStepRoundings * u * stated.v_WB.norm());
   row.within("angular velocity", states[0].w_WB, stated.w_WB, kOneStepRoundings * u * stated.w_WB.norm());
   // An attitude may be kept as a matrix: each entry has three products and two sums, its inverse a root and a
   // quotient, and the angle is twice the quaternion's error.
@@ -144,7 +144,8 @@ void bodies_keep_their_order(Interview& row) {
 const Question kQuestions[] = {
     {{"initial_state_reads_back", "frames",
       "Is the stated initial state what is read before the first step: world axes, centre of mass, w x y z?",
-      "one rounding to the engine's precision; attitude and angular velocity 16, for a rotation and back", false},
+      "one rounding to the engine's precision; attitude and velocities 16, for a rotation to body axes and back",
+      false},
      initial_state_reads_back},
     {{"spin_turns_right_handed", "frames", "Does a spin about an axis turn the others by the right-hand rule?",
       "(w dt)^2/12 of the angle, the error of a quaternion advanced by Euler's rule, and 16 roundings a step", false},

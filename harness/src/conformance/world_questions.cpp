@@ -6,17 +6,34 @@ namespace {
 
 constexpr int kSteps = 128;  // two seconds: everything in the busy scenes has fallen and touched
 
+// Those of the busy scenes that the row carries through, as they stand and moved by `shift`: a solver that gives up in
+// a stack, and says so, is asked in a simpler one.
+std::vector<std::pair<Scenario, Scenario>> steady_scenes(Interview& row, double shift = 0) {
+  const auto ones = busy_scenes(row), twos = busy_scenes(row, shift);
+  std::vector<std::pair<Scenario, Scenario>> steady;
+  std::string said;
+  for (std::size_t i = 0; i < ones.size(); ++i) {
+    try {
+      run(*row.build(ones[i]), ones[i], kStep, kSteps);
+      if (shift != 0) run(*row.build(twos[i]), twos[i], kStep, kSteps);
+      steady.emplace_back(ones[i], twos[i]);
+    } catch (const std::runtime_error& error) {
+      said = error.what();
+    }
+  }
+  row.expect(!steady.empty(), "the engine gives up in every scene: " + said);
+  return steady;
+}
+
 void same_run_same_bits(Interview& row) {
-  for (const Scenario& scenario : busy_scenes(row)) {
+  for (const auto& [scenario, moved] : steady_scenes(row)) {
     const auto first = run(*row.build(scenario), scenario, kStep, kSteps);
     row.expect(same_bits(first, run(*row.build(scenario), scenario, kStep, kSteps)), "the second run gives other bits");
   }
 }
 
 void two_worlds_do_not_mix(Interview& row) {
-  const auto ones = busy_scenes(row), twos = busy_scenes(row, 0.07);
-  for (std::size_t i = 0; i < ones.size(); ++i) {
-    const Scenario &one = ones[i], &two = twos[i];
+  for (const auto& [one, two] : steady_scenes(row, 0.07)) {
     const auto one_alone = run(*row.build(one), one, kStep, kSteps);
     const auto two_alone = run(*row.build(two), two, kStep, kSteps);
     row.expect(!same_bits(one_alone, two_alone), "two scenes that differ end with the same bits");
@@ -31,7 +48,7 @@ void two_worlds_do_not_mix(Interview& row) {
 }
 
 void worlds_outlive_each_other(Interview& row) {
-  for (const Scenario& scenario : busy_scenes(row)) {
+  for (const auto& [scenario, moved] : steady_scenes(row)) {
     const auto alone = run(*row.build(scenario), scenario, kStep, kSteps);
     auto older = row.build(scenario);
     older->step(kStep);
@@ -44,7 +61,7 @@ void worlds_outlive_each_other(Interview& row) {
 }
 
 void reading_disturbs_nothing(Interview& row) {
-  for (const Scenario& scenario : busy_scenes(row)) {
+  for (const auto& [scenario, moved] : steady_scenes(row)) {
     const auto unread = run(*row.build(scenario), scenario, kStep, kSteps);
     const auto world = row.build(scenario);
     std::vector<BodyState> first, again;
