@@ -95,22 +95,34 @@ class Reader {
     return true;
   }
 
+  std::string check_name(const toml::node& node) const {
+    std::string name = text(node);
+    if (find_conformance_check(name) == nullptr) {
+      fail(node, fmt::format("there is no check '{}'; `plumbline adapter test --list` shows them", name));
+    }
+    return name;
+  }
+
   void add_known_failure(const toml::table& entry) {
     KnownFailure known;
+    std::vector<std::string> checks;  // that one cause breaks
     known.place = place_of(entry);
     for (auto&& [key, node] : entry) {
       if (key.str() == "check") {
-        known.check = text(node);
-        if (find_conformance_check(known.check) == nullptr) {
-          fail(node, fmt::format("there is no check '{}'; `plumbline adapter test --list` shows them", known.check));
-        }
+        checks.push_back(check_name(node));
+      } else if (key.str() == "checks") {
+        each(node, [&](const toml::node& item) { checks.push_back(check_name(item)); });
       } else if (!take_common(known, key.str(), node)) {
-        fail(node, fmt::format("unknown key '{}'; a known failure has check, engines, profile, why, link", key.str()));
+        fail(node, fmt::format("unknown key '{}'; a known failure has check or checks, engines, profile, why, link",
+                               key.str()));
       }
     }
-    if (known.check.empty()) fail(entry, "a known failure must name its check");
+    if (checks.empty()) fail(entry, "a known failure must name its check");
     if (known.why.empty()) fail(entry, "a known failure must say why: the cause is the point of the list");
-    result_.known_failures.push_back(std::move(known));
+    for (const std::string& check : checks) {
+      known.check = check;
+      result_.known_failures.push_back(known);
+    }
   }
 
   void add_deviation(const toml::table& entry) {

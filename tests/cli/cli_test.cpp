@@ -287,8 +287,9 @@ TEST_F(Cli, CtrlCKeepsWhatThereIs) {
 }
 
 TEST_F(Cli, SweepsAnEnginesSettingAsRowsOfTheirOwn) {
-  const Outcome o = with_fakes("run -q -e fake-honest -f falling_box --dt 0.02 --profile matched "
-                               "--set fake.damping=0.25,1/2 -o out");
+  const Outcome o = with_fakes(
+      "run -q -e fake-honest -f falling_box --dt 0.02 --profile matched "
+      "--set fake.damping=0.25,1/2 -o out");
   ASSERT_EQ(o.code, kExitPass) << o.out << o.err;
   const auto results = nlohmann::json::parse(text_of(folder_ / "out/results.json"));
   ASSERT_EQ(results.at("runs").size(), 2U);

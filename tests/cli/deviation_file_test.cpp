@@ -69,11 +69,15 @@ link = "a link"
 [[conformance]]
 check = "friction_is_a_cone"
 why = "another"
+
+[[conformance]]
+checks = ["a_step_lasts_dt", "motion_across_the_plane"]
+why = "one cause for two"
 )";
 
 TEST_F(DeviationFile, GivesKnownFailuresOfChecks) {
   const auto known = read(kWhole + "\n" + kKnown).known_failures;
-  ASSERT_EQ(known.size(), 2u);
+  ASSERT_EQ(known.size(), 4u);
   EXPECT_EQ(known[0].check, "huge_speed_is_kept");
   EXPECT_EQ(known[0].link, "a link");
   EXPECT_TRUE(known[0].covers("other", Profile::kDefault, "huge_speed_is_kept"));
@@ -81,6 +85,9 @@ TEST_F(DeviationFile, GivesKnownFailuresOfChecks) {
   EXPECT_FALSE(known[0].covers("third", Profile::kDefault, "huge_speed_is_kept"));
   EXPECT_TRUE(known[1].covers("any", Profile::kMatched, "friction_is_a_cone"));
   EXPECT_FALSE(known[1].covers("any", Profile::kMatched, "huge_speed_is_kept"));
+  EXPECT_EQ(known[2].check, "a_step_lasts_dt");
+  EXPECT_EQ(known[3].check, "motion_across_the_plane");
+  EXPECT_EQ(known[3].why, "one cause for two");
 }
 
 TEST_F(DeviationFile, ComplainsAboutKnownFailuresWithThePlace) {
@@ -91,6 +98,7 @@ TEST_F(DeviationFile, ComplainsAboutKnownFailuresWithThePlace) {
   };
   const std::string name = file_.string();
   EXPECT_EQ(replaced("huge_speed_is_kept", "huge").find(name + ":2:9: there is no check 'huge'"), 0u);
+  EXPECT_EQ(replaced("a_step_lasts_dt", "a_step").find(name + ":13:11: there is no check 'a_step'"), 0u);
   EXPECT_EQ(replaced("why = \"the cause\"", "").find(name + ":1:1: a known failure must say why"), 0u);
   EXPECT_EQ(replaced("check = \"friction_is_a_cone\"", "").find(name + ":8:1: a known failure must name"), 0u);
   EXPECT_EQ(replaced("link =", "dt =").find(name + ":6:"), 0u);
@@ -104,6 +112,7 @@ TEST_F(DeviationFile, ComplainsWithThePlace) {
     return complaint(text);
   };
   const std::string name = file_.string();
+  EXPECT_EQ(replaced("a_step_lasts_dt", "a_step").find(name + ":13:11: there is no check 'a_step'"), 0u);
   EXPECT_EQ(replaced("why = \"the cause\"", "").find(name + ":1:1: a deviation must say why"), 0u);
   EXPECT_EQ(replaced("position.max", "position.most").find(name + ":7:"), 0u);
   EXPECT_EQ(replaced("link =", "lnk =").find(name + ":9:"), 0u);
