@@ -1,21 +1,13 @@
 // Bullet behind the door of core/engine.hpp. Compiled twice: btScalar is float or double.
-#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
-
 #include <stdexcept>
 
 #include "bullet_conversions.hpp"
 #include "bullet_joints.hpp"
 #include "bullet_knobs.hpp"
-#include "bullet_multibody.hpp"
 #include "plumbline/core/engine.hpp"
 
 namespace plumbline {
 namespace {
-
-// Every body carries the coefficients of the pair, so the pair's value is that of either of them; Bullet itself
-// would multiply the two.
-btScalar pair_restitution(const btCollisionObject* a, const btCollisionObject*) { return a->getRestitution(); }
-btScalar pair_friction(const btCollisionObject* a, const btCollisionObject*) { return a->getFriction(); }
 
 class BulletWorld final : public World {
  public:
@@ -155,12 +147,9 @@ class BulletEngine final : public Engine {
 }  // namespace
 
 std::vector<std::unique_ptr<Engine>> make_engines() {
-  gCalculateCombinedRestitutionCallback = pair_restitution;
-  gCalculateCombinedFrictionCallback = pair_friction;
+  take_material_of_the_pair();
   std::vector<std::unique_ptr<Engine>> engines;
   engines.push_back(std::make_unique<BulletEngine>());
-  // Trees of joints are for double precision.
-  if constexpr (kBulletIsDouble) engines.push_back(make_bullet_multibody());
   return engines;
 }
 

@@ -1,8 +1,21 @@
 #include "bullet_knobs.hpp"
 
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+
 #include "bullet_conversions.hpp"
 
 namespace plumbline {
+namespace {
+
+btScalar pair_restitution(const btCollisionObject* a, const btCollisionObject*) { return a->getRestitution(); }
+btScalar pair_friction(const btCollisionObject* a, const btCollisionObject*) { return a->getFriction(); }
+
+}  // namespace
+
+void take_material_of_the_pair() {
+  gCalculateCombinedRestitutionCallback = pair_restitution;
+  gCalculateCombinedFrictionCallback = pair_friction;
+}
 
 KnobTable<BulletRigidKnobs> bullet_rigid_knob_table() {
   using K = BulletRigidKnobs;

@@ -45,6 +45,10 @@ KnobTable<Knobs>& add_bullet_contact_knobs(KnobTable<Knobs>& table) {
            "support points sought per step between a box and a plane; with one a box that lands flat tumbles");
 }
 
+// Every body carries the coefficients of the pair, so the pair's value is that of either of them; Bullet itself would
+// multiply the two. Holds for the whole process.
+void take_material_of_the_pair();
+
 // Hands them on, erp2 too.
 void set_bullet_contact(const BulletContactKnobs& knobs, btDefaultCollisionConfiguration& collision,
                         btContactSolverInfo& solver);

@@ -1,7 +1,5 @@
 // Trees of joints in reduced coordinates: btMultiBody in a btMultiBodyDynamicsWorld. Every moving body is the base or a
 // link of a btMultiBody, as Bullet's own importers of robots make them; a body without joints is a base without links.
-#include "bullet_multibody.hpp"
-
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -12,6 +10,7 @@
 #include "bullet_joints.hpp"
 #include "bullet_knobs.hpp"
 #include "bullet_tree.hpp"
+#include "plumbline/core/engine.hpp"
 
 namespace plumbline {
 namespace {
@@ -234,6 +233,11 @@ class MultibodyEngine final : public Engine {
 
 }  // namespace
 
-std::unique_ptr<Engine> make_bullet_multibody() { return std::make_unique<MultibodyEngine>(); }
+std::vector<std::unique_ptr<Engine>> make_engines() {
+  take_material_of_the_pair();
+  std::vector<std::unique_ptr<Engine>> engines;
+  engines.push_back(std::make_unique<MultibodyEngine>());
+  return engines;
+}
 
 }  // namespace plumbline

@@ -24,9 +24,10 @@ Hanging hanging(const Scenario& scenario, const Joint& joint) {
 }  // namespace
 
 std::vector<std::vector<TreeLink>> bullet_trees(const Scenario& scenario) {
+  const JointTree forest = joint_tree(scenario);
   std::vector<std::vector<TreeLink>> trees;
   std::vector<std::size_t> tree_of(scenario.bodies.size());
-  for (const TreeLink& link : joint_tree(scenario).links) {
+  for (const TreeLink& link : forest.links) {
     const bool root = !link.joint || link.joint->a == kWorld;
     if (root) trees.emplace_back();
     tree_of[link.body] = root ? trees.size() - 1 : tree_of[link.joint->a];
