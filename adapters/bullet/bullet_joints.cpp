@@ -27,13 +27,6 @@ std::unique_ptr<btTypedConstraint> slider(const Joint& joint, btRigidBody& a, bt
 
 }  // namespace
 
-void refuse_ranges(const Scenario& scenario) {
-  for (const Joint& joint : scenario.joints) {
-    if (!joint.range) continue;
-    throw std::invalid_argument("joint '" + joint.name + "' has a range, which is not handed to Bullet");
-  }
-}
-
 std::unique_ptr<btTypedConstraint> bullet_joint(const Joint& joint, btRigidBody& a, btRigidBody& b) {
   switch (joint.kind) {
     case JointKind::kBall:

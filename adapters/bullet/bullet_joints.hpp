@@ -9,9 +9,6 @@
 
 namespace plumbline {
 
-// Throws std::invalid_argument, naming the joint, when one has a range: those are not handed to Bullet.
-void refuse_ranges(const Scenario& scenario);
-
 // `a` is Bullet's own fixed body for a joint to the world.
 std::unique_ptr<btTypedConstraint> bullet_joint(const Joint& joint, btRigidBody& a, btRigidBody& b);
 

@@ -222,7 +222,6 @@ class MultibodyEngine final : public Engine {
   const EngineInfo& info() const override { return info_; }
 
   std::unique_ptr<World> create(const Scenario& scenario, const Settings& settings) const override {
-    refuse_ranges(scenario);
     return std::make_unique<MultibodyWorld>(scenario, knobs_.read(settings));
   }
 

@@ -104,7 +104,6 @@ class DartWorld final : public World {
     for (const auto& skeleton : skeletons_) world_->addSkeleton(skeleton);
     for (std::size_t k : tree.left_over) close_loop(scenario.joints[k]);
     for (const Joint& joint : scenario.joints) {
-      if (joint.range) throw std::invalid_argument("joint '" + joint.name + "': this adapter has no limits of joints");
       if (joint.a != kWorld) filter_->addBodyNodePairToBlackList(nodes_[joint.a], nodes_[joint.b]);
     }
   }

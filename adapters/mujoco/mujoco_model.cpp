@@ -180,9 +180,6 @@ class ModelText {
 std::string mujoco_name(std::size_t body) { return "b" + std::to_string(body); }
 
 MujocoModel mujoco_model(const Scenario& scenario, const JointTree& tree) {
-  for (const Joint& j : scenario.joints) {
-    if (j.range) throw std::invalid_argument("joint '" + j.name + "' has a range, which is not handed on to MuJoCo");
-  }
   const std::string text = ModelText(scenario, tree).write();
   const auto files = std::make_unique<mjVFS>();  // megabytes: not on the stack
   mj_defaultVFS(files.get());

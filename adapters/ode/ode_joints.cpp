@@ -37,7 +37,6 @@ dJointID create(dWorldID world, JointKind kind) {
 }  // namespace
 
 void add_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b) {
-  if (joint.range) throw std::invalid_argument("joint '" + joint.name + "' has a range, which is not handed to ODE");
   const dJointID id = create(world, joint.kind);
   dJointAttach(id, b, a);
   // ODE takes anchors and axes in W and remembers where they are on both bodies.

@@ -7,8 +7,7 @@
 
 namespace plumbline {
 
-// Ties b to a, null for the world, where both stand now. The world owns the joint. Throws std::invalid_argument for a
-// joint with a range.
+// Ties b to a, null for the world, where both stand now. The world owns the joint.
 void add_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b);
 
 }  // namespace plumbline

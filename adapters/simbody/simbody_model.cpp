@@ -67,9 +67,6 @@ std::string simbody_version() {
 SimbodyModel::SimbodyModel(const Scenario& scenario)
     : bodies_(scenario.bodies.size(), SimTK::MobilizedBodyIndex(0)), fixed_(scenario.bodies.size()) {
   SimTK::Force::UniformGravity(forces_, matter_, simbody_vector(scenario.gravity));
-  for (const Joint& joint : scenario.joints) {
-    if (joint.range) throw std::invalid_argument("joint '" + joint.name + "' has a range: this adapter knows none");
-  }
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
     fixed_[i].p_WB = scenario.bodies[i].initial.p_WB;
     fixed_[i].q_WB = scenario.bodies[i].initial.q_WB;

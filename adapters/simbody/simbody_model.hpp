@@ -26,7 +26,6 @@ std::string simbody_version();  // as the library tells it
 
 class SimbodyModel {
  public:
-  // Throws std::invalid_argument for joints with a range.
   explicit SimbodyModel(const Scenario& scenario);
 
   // Joints that close a loop, and rods, as constraints beside the tree. Not for a stepper that ignores constraints.

@@ -69,6 +69,13 @@ TEST(Needs, FollowFromJointsAndTheLoopsTheyClose) {
   EXPECT_EQ(needs(s), FeatureSet({Feature::kHinge, Feature::kBallJoint, Feature::kSlider, Feature::kJointLoop}));
 }
 
+TEST(Needs, NameTheLimitsOfAJoint) {
+  Scenario s = two_boxes();
+  s.joints = {joint_of(s, JointKind::kHinge, kWorld, 0, Vec3(0, 0, 3), Vec3::UnitY())};
+  s.joints[0].range = JointRange{-1, 1};
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kHinge, Feature::kJointRange}));
+}
+
 TEST(Needs, NameContactBesideJointsAndNotThatOfTiedBodies) {
   Scenario s = two_boxes();
   s.contact = ContactMaterial{};

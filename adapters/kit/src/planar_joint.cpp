@@ -20,9 +20,6 @@ PlanarVector in_planar_axes(const BodyState& state, const Vec3& v_B) {
 }  // namespace
 
 PlanarJoint planar_joint(const Scenario& scenario, const Joint& joint) {
-  if (joint.range) {
-    throw std::invalid_argument("joint '" + joint.name + "' has a range, which this engine's adapter does not hold");
-  }
   const BodyState a = initial_state_of(scenario, joint.a), b = initial_state_of(scenario, joint.b);
   PlanarJoint planar;
   planar.on_a = in_planar_axes(a, joint.on_a.anchor);

@@ -71,17 +71,5 @@ TEST(PlanarJoint, OfTheWorldIsAnchoredInW) {
   EXPECT_EQ(joint.turn, in_plane(s.bodies[0].initial).angle);
 }
 
-TEST(PlanarJoint, RefusesRanges) {
-  Scenario s = two_bodies(JointKind::kHinge, Vec3(1, 0, 1), Vec3::UnitY());
-  s.joints[0].name = "knee";
-  s.joints[0].range = JointRange{-1, 1};
-  try {
-    planar_joint(s, s.joints[0]);
-    ADD_FAILURE() << "a range was dropped";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("'knee' has a range"), std::string::npos);
-  }
-}
-
 }  // namespace
 }  // namespace plumbline

@@ -19,7 +19,6 @@ struct PlanarJoint {
   double turn = 0;    // angle of b less that of a, at the start [rad]
 };
 
-// Throws std::invalid_argument for a joint with a range: a planar row that wants to hold one must read it itself.
 PlanarJoint planar_joint(const Scenario& scenario, const Joint& joint);
 
 }  // namespace plumbline
