@@ -1,7 +1,6 @@
 #include "plumbline/adapters/planar_joint.hpp"
 
 #include <cmath>
-#include <stdexcept>
 
 #include "plumbline/adapters/joint_tree.hpp"
 #include "plumbline/adapters/planar_frame.hpp"
