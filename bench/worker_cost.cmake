@@ -5,6 +5,6 @@ foreach(engine IN LISTS engines)
                       LIBRARIES plumbline::adapter_${engine} plumbline::harness plumbline::scenarios
                       DEFINITIONS PLUMBLINE_WORKER="$<TARGET_FILE:plumbline-engine-${engine}>"
                                   PLUMBLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                      SHORT "/50$")
+                      SHORT "/50/real_time$")
   add_dependencies(bench_worker_cost_${engine} plumbline-engine-${engine})
 endforeach()

@@ -43,10 +43,12 @@ Recording in_process(double dt) {
 }
 
 Recording through(WorkerPool& pool, double dt) {
-  const RunRequest request{0,     subject().engines.front()->info().name, Profile::kDefault, dt, &subject().scenario,
-                           &subject().text, kFile, {}};
+  const RunRequest request{
+      0, subject().engines.front()->info().name, Profile::kDefault, dt, &subject().scenario, &subject().text, kFile,
+      {}};
   RunOutcome outcome;
-  pool.run({request}, 1, WorkerPool::Seconds(60), [&](std::size_t, RunOutcome o) { outcome = std::move(o); }, false);
+  pool.run(
+      {request}, 1, WorkerPool::Seconds(60), [&](std::size_t, RunOutcome o) { outcome = std::move(o); }, false);
   return std::move(outcome.recording);
 }
 

@@ -18,12 +18,12 @@ function(plumbline_add_engine name)
   set_target_properties(${worker} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${folder})
   install(TARGETS ${worker} DESTINATION ${PLUMBLINE_WORKER_DIR})
 
+  # The link is made whether or not the list exists yet, so that one written later is seen without configuring anew; a
+  # link that leads nowhere is an empty list.
   set(deviations ${CMAKE_CURRENT_SOURCE_DIR}/deviations.toml)
-  if(EXISTS ${deviations})
-    file(MAKE_DIRECTORY ${folder})
-    file(CREATE_LINK ${deviations} ${folder}/${worker}.deviations.toml SYMBOLIC)
-    install(FILES ${deviations} DESTINATION ${PLUMBLINE_WORKER_DIR} RENAME ${worker}.deviations.toml)
-  endif()
+  file(MAKE_DIRECTORY ${folder})
+  file(CREATE_LINK ${deviations} ${folder}/${worker}.deviations.toml SYMBOLIC)
+  install(FILES ${deviations} DESTINATION ${PLUMBLINE_WORKER_DIR} RENAME ${worker}.deviations.toml OPTIONAL)
 
   set_property(GLOBAL APPEND PROPERTY PLUMBLINE_ENGINES ${name})
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR FILENAME engine_folder)

@@ -17,9 +17,9 @@ namespace {
 
 constexpr double kWidth = 900, kHeight = 380;
 constexpr double kLeft = 74, kRight = 16, kTop = 22, kBottom = 44;
-constexpr double kFloorGap = 22;           // between the lowest decade and the line of zero errors
-constexpr std::size_t kPointsDrawn = 400;  // a screen shows no more; keeps the page small
-constexpr int kDecadesShown = 18;          // below that far under the largest error all is round-off
+constexpr double kFloorGap = 22;          // between the lowest decade and the line of zero errors
+constexpr std::size_t kPointsDrawn = 80;  // of dozens of curves a reader sees no more; keeps the page small
+constexpr int kDecadesShown = 18;         // below that far under the largest error all is round-off
 constexpr double kMarksPerCurve = 5;
 
 using Out = std::back_insert_iterator<std::string>;

@@ -32,7 +32,9 @@ double rebound_speed(double approach, double resting_speed, double restitution) 
 
 }  // namespace
 
-FeatureSet simulator_features() { return FeatureSet::all().without({Feature::kJointRange, Feature::kJointsAndContact}); }
+FeatureSet simulator_features() {
+  return FeatureSet::all().without({Feature::kJointRange, Feature::kJointsAndContact});
+}
 
 Simulator::Simulator(const Scenario& scenario, const Scheme& scheme, const SimulatorOptions& options)
     : scheme_(scheme),

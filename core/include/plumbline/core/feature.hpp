@@ -14,7 +14,7 @@ enum class Feature : std::size_t {
   kSpatial,       // motion in three dimensions
   kForce,         // a force at the centre of mass, new at every step
   kTorque,        // a torque, new at every step
-  kSphereSphere,  // contact between two moving spheres
+  kSphereSphere,  // contact between two spheres that do not both stand still
   kSphereHalfSpace,
   kSphereBox,
   kBoxHalfSpace,
