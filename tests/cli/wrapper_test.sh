@@ -50,5 +50,10 @@ check hands_over_arguments_and_status 5 "libode-dev" "the program got: list --js
 (($(wc -l < "$folder/cmake.calls") == calls + 1)) || { echo "FAILED: it configured again for nothing"; failures=$((failures + 1)); }
 check configures_again_when_an_engine_came 5 "" "configuring (release)" "the program got: list --json"
 
-((failures == 0)) && echo "wrapper: 4 situations as they should be"
+export PLUMBLINE_ENGINES="kinetics;box2d"
+check asks_only_for_the_engines_that_are_wanted 5 "libode-dev" "configuring (release)" "the program got: list --json"
+grep -qF -- "-DPLUMBLINE_ENGINES=kinetics;box2d" "$folder/cmake.calls" ||
+  { echo "FAILED: cmake was not told which engines are wanted"; failures=$((failures + 1)); }
+
+((failures == 0)) && echo "wrapper: 5 situations as they should be"
 exit $((failures > 0))
