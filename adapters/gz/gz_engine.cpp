@@ -7,13 +7,20 @@
 namespace plumbline {
 namespace {
 
+// Names that the layer itself takes.
+std::vector<std::pair<std::string, std::string>> names(const std::vector<std::string>& words) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& word : words) pairs.emplace_back(word, word);
+  return pairs;
+}
+
 KnobTable<GzKnobs> knob_table() {
   return KnobTable<GzKnobs>()
-      .choose(&GzKnobs::detector, "collision_detector",
-              {{"ode", std::string("ode")}, {"bullet", std::string("bullet")}, {"dart", std::string("dart")}}, "ode",
-              "ode", "who finds contacts; bullet works in single precision, dart knows no planes")
-      .choose(&GzKnobs::solver, "solver", {{"dantzig", std::string("dantzig")}, {"pgs", std::string("pgs")}}, "dantzig",
-              "dantzig", "who solves them; DART's constants of the contacts are out of reach behind the layer");
+      .choose(&GzKnobs::detector, "collision_detector", names({"ode", "bullet", "fcl", "dart"}), "ode", "ode",
+              "who finds contacts")
+      .choose(&GzKnobs::solver, "solver",
+              {{"dantzig", std::string("DantzigBoxedLcpSolver")}, {"pgs", std::string("PgsBoxedLcpSolver")}}, "dantzig",
+              "dantzig", "who solves them; pgs sweeps 30 times and is less exact");
 }
 
 class GzEngine final : public Engine {

@@ -30,7 +30,7 @@ std::string geometry(const Shape& shape) {
 std::string collision(const Body& body, const ContactMaterial& contact) {
   std::string text = geometry(body.shape);
   if (const auto* half = std::get_if<HalfSpace>(&body.shape)) {
-    text += pose(Vec3::Zero(), Quat::FromTwoVectors(Vec3::UnitZ(), half->normal));
+    text += pose(Vec3::Zero(), half_space_attitude(*half));
   }
   // DART takes the smaller friction of the two, and the product of the restitutions.
   const std::string mu = shortest(contact.friction);
@@ -85,6 +85,8 @@ void require_noticed(const ContactMaterial& contact) {
 
 std::string gz_link_name(std::size_t body) { return "body" + std::to_string(body); }
 std::string gz_joint_name(std::size_t joint) { return "joint" + std::to_string(joint); }
+
+Quat half_space_attitude(const HalfSpace& half) { return Quat::FromTwoVectors(Vec3::UnitZ(), half.normal); }
 
 std::vector<GzGroup> gz_groups(const Scenario& scenario) {
   std::vector<GzGroup> groups;

@@ -18,6 +18,9 @@ std::vector<GzGroup> gz_groups(const Scenario& scenario);
 std::string gz_link_name(std::size_t body);
 std::string gz_joint_name(std::size_t joint);
 
+// Turns z to the normal: a plane is stated facing z.
+Quat half_space_attitude(const HalfSpace& half);
+
 // Throws std::invalid_argument for what SDF or DART would quietly take for something else.
 std::string gz_scene_text(const Scenario& scenario, const std::vector<GzGroup>& groups);
 

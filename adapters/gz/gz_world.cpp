@@ -63,7 +63,7 @@ class GzWorld final : public World {
     world_->SetCollisionDetector(knobs.detector);
     world_->SetSolver(knobs.solver);
     require_taken(world_->GetCollisionDetector() == knobs.detector, "collision_detector", knobs.detector);
-    require_taken(world_->GetSolver() != "", "solver", knobs.solver);
+    require_taken(world_->GetSolver() == knobs.solver, "solver", knobs.solver);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const auto model = world_->ConstructModel(*stated.ModelByIndex(g));
       if (!model) throw std::runtime_error("the plugin made no model of the scene's group " + std::to_string(g));
@@ -105,6 +105,7 @@ class GzWorld final : public World {
       throw std::runtime_error("the step may have dropped contacts: the plugin keeps at most " +
                                std::to_string(kMostContacts));
     }
+    if (scenario_.contact) require_ground_below();
   }
 
   void read(std::span<BodyState> states) const override {
@@ -121,6 +122,7 @@ class GzWorld final : public World {
  private:
   static constexpr double kUnnoticedChange = 1e-6;  // [s]
   static constexpr std::size_t kMostContacts = 10000;
+  static constexpr double kHalfPlane = 1050;  // [m]
 
   static void require_taken(bool taken, const std::string& setting, const std::string& value) {
     if (!taken) throw std::runtime_error("the plugin does not take '" + value + "' for setting '" + setting + "'");
@@ -134,6 +136,30 @@ class GzWorld final : public World {
       throw std::invalid_argument("Gazebo counts time in whole nanoseconds: a step of " + shortest(dt) + " s is none");
     }
     return ticks;
+  }
+
+  // A plane is a cube whose upper side is centred where the plane is stated: what passes its edge would fall on.
+  void require_ground_below() const {
+    for (const Body& ground : scenario_.bodies) {
+      const auto* half = std::get_if<HalfSpace>(&ground.shape);
+      if (half == nullptr) continue;
+      const Quat q_PW = half_space_attitude(*half).inverse();
+      for (std::size_t i = 0; i < links_.size(); ++i) {
+        if (scenario_.bodies[i].fixed) continue;
+        const Vec3 p_PB = q_PW * (links_[i]->FrameDataRelativeToWorld().pose.translation() - ground.initial.p_WB);
+        const double reach = outer_radius(scenario_.bodies[i].shape);
+        if (std::abs(p_PB.z()) > reach || p_PB.head<2>().cwiseAbs().maxCoeff() + reach < kHalfPlane) continue;
+        throw std::runtime_error("body '" + scenario_.bodies[i].name + "' has come to the edge of half-space '" +
+                                 ground.name + "', which reaches " + shortest(kHalfPlane) +
+                                 " m from where it is stated");
+      }
+    }
+  }
+
+  static double outer_radius(const Shape& shape) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+    const auto* box = std::get_if<Box>(&shape);
+    return box != nullptr ? box->size.norm() / 2 : 0;
   }
 
   void start(gp::Model<gp::FeaturePolicy3d, Needed>& model, const GzGroup& group) {
