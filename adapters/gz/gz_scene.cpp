@@ -60,7 +60,6 @@ std::string link(const Scenario& scenario, std::size_t i) {
 
 std::string joint(const TreeLink& tree_link) {
   const Joint& j = *tree_link.joint;
-  if (j.range) throw std::invalid_argument("joint '" + j.name + "': this adapter has no limits of joints");
   const char* type = j.kind == JointKind::kHinge    ? "revolute"
                      : j.kind == JointKind::kSlider ? "prismatic"
                      : j.kind == JointKind::kBall   ? "ball"
