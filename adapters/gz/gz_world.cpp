@@ -75,11 +75,6 @@ class GzWorld final : public World {
     static std::once_flag first;
     std::call_once(first, [&] { keep_profiler_offline([&] { step_world(*empty_world(stated), Ticks(1)); }); });
     world_ = empty_world(stated);
-    // Names that the plugin does not know are left aside with a line on the console.
-    world_->SetCollisionDetector(knobs.detector);
-    world_->SetSolver(knobs.solver);
-    require_taken(world_->GetCollisionDetector() == knobs.detector, "collision_detector", knobs.detector);
-    require_taken(world_->GetSolver() == knobs.solver, "solver", knobs.solver);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       const auto model = world_->ConstructModel(*stated.ModelByIndex(g));
       if (!model) throw std::runtime_error("the plugin made no model of the scene's group " + std::to_string(g));
@@ -88,6 +83,13 @@ class GzWorld final : public World {
       }
       start(*model, groups[g]);
     }
+    // Only now that all shapes are there: those that a detector is given later it finds in an order that depends on
+    // addresses in memory, and so would the results.
+    // Names that the plugin does not know are left aside with a line on the console.
+    world_->SetCollisionDetector(knobs.detector);
+    world_->SetSolver(knobs.solver);
+    require_taken(world_->GetCollisionDetector() == knobs.detector, "collision_detector", knobs.detector);
+    require_taken(world_->GetSolver() == knobs.solver, "solver", knobs.solver);
   }
 
   void apply(std::span<const Wrench> wrenches) override {
