@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -37,13 +38,16 @@ void print_settings(const EngineInventory& engines) {
   }
 }
 
+// As in results.json: a number that is not finite is a word, since JSON has none for it.
 nlohmann::json json_of(const SettingValue& value) {
+  const auto* number = std::get_if<double>(&value);
+  if (number != nullptr && !std::isfinite(*number)) return shortest(*number);
   return std::visit([](const auto& v) { return nlohmann::json(v); }, value);
 }
 
-nlohmann::json json_of(const std::vector<Setting>& settings) {
+nlohmann::json settings_json(const EngineInfo& info) {
   nlohmann::json rows = nlohmann::json::array();
-  for (const Setting& s : settings) {
+  for (const Setting& s : info.settings) {
     rows.push_back({{"name", s.name},
                     {"default", json_of(s.default_value)},
                     {"matched", json_of(s.matched_value)},
@@ -70,7 +74,7 @@ nlohmann::json listing(const ScenarioInventory& scenarios, const EngineInventory
                                {"precision", row.info.precision == Precision::kSingle ? "single" : "double"},
                                {"dimension", row.info.dimension},
                                {"scheme", row.info.scheme},
-                               {"settings", json_of(row.info.settings)}});
+                               {"settings", settings_json(row.info)}});
   }
   return json;
 }

@@ -305,6 +305,8 @@ TEST_F(Cli, ListsTheSettingsThatCanBeChanged) {
   EXPECT_EQ(o.code, kExitPass);
   EXPECT_NE(o.out.find("fake-honest.damping = 0.1, matched 0  [1/s]\n      not used by fakes"), std::string::npos)
       << o.out;
+  const auto json = nlohmann::json::parse(with_fakes("list --json -e fake-honest").out);
+  EXPECT_EQ(json.at("engines").at(0).at("settings").at(0).at("default"), 0.1);
 }
 
 }  // namespace

@@ -37,8 +37,8 @@ double observed_order(const Scheme& scheme) {
 }
 
 TEST(JointedMotion, HasTheOrderOfItsIntegrator) {
-  // The next term of the error's series is smaller by dt times a rate of some 4/s; the two errors differ in it by half
-  // of that, 0.4 %, times what the terms before it cancel, here some ten times.
+  // The observed order is off by what the next term of the error's series brings, c dt. With steps twice as long
+  // Verlet, the worst, was 0.057 off: 0.03 is left here.
   EXPECT_NEAR(observed_order({Integrator::kSemiImplicitEuler}), 1, 0.05);
   EXPECT_NEAR(observed_order({Integrator::kExplicitEuler}), 1, 0.05);
   EXPECT_NEAR(observed_order({Integrator::kVelocityVerlet}), 2, 0.05);
