@@ -10,6 +10,7 @@ namespace {
 constexpr const char* kFooter = R"(
 Start here:
   plumbline run                                  every engine, every scenario, the report
+  plumbline run --tier standard                  every case and time step of them
   plumbline run -f two_sphere -e bullet,ode      some of it
   plumbline run -f drag_ship -P v0=0,10,30       other parameters
   plumbline run my_case.toml                     your own scenario file

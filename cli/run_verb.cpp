@@ -29,7 +29,7 @@ namespace {
 
 struct RunOptions {
   std::vector<std::string> paths, filter, engines, parameters, settings, steps;
-  std::string profile = "both", output = "plumbline-results";
+  std::string profile = "both", tier, output = "plumbline-results";
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
   double timeout = 30;
   unsigned repeat = 1;
@@ -91,7 +91,7 @@ class RunVerb {
     std::vector<EngineInfo> infos;
     for (const EngineRow& row : engines_.rows) infos.push_back(row.info);
     const auto plan_of = [&](const std::vector<CaseInput>& cases) {
-      return plan_runs(cases, infos, profiles_named(options_.profile), selected);
+      return plan_runs(cases, infos, profiles_named(options_.profile), tier(), selected);
     };
     scenarios_ = load_scenarios(installation, options_.paths, overrides, [&](const Scenario& scenario) {
       return !plan_of({{scenario, nullptr, nullptr, ""}}).empty();
@@ -107,6 +107,16 @@ class RunVerb {
     report_.missing_engines = engines_.missing;
     keep_planned_scenarios();
     return !plan_.empty();
+  }
+
+  // Who says which scenarios, parameters or steps wants all of them; the whole catalogue is run in its short form.
+  Tier tier() const {
+    for (const Tier tier : {Tier::kSmoke, Tier::kStandard, Tier::kFull}) {
+      if (options_.tier == tier_name(tier)) return tier;
+    }
+    const bool said =
+        !options_.paths.empty() || !options_.filter.empty() || !options_.parameters.empty() || !options_.steps.empty();
+    return said ? Tier::kFull : Tier::kSmoke;
   }
 
   // The report speaks of the scenarios that were run, not of those that a filter left out.
@@ -254,6 +264,10 @@ void add_run_verb(CLI::App& program, Action& action) {
   verb->add_option("-e,--engines", o->engines, "Only these engines: bullet-f32, or bullet for all its rows")
       ->delimiter(',')
       ->allow_extra_args(false);
+  verb->add_option("--tier", o->tier,
+                   "smoke: the first case and step of every scenario, seconds; standard: all cases and steps; full: "
+                   "the long ones too. Default: smoke, or full once paths, -f, -P or --dt say what to run")
+      ->check(CLI::IsMember({"smoke", "standard", "full"}));
   verb->add_option("--profile", o->profile, "Engine settings: default, matched or both")
       ->check(CLI::IsMember({"default", "matched", "both"}))
       ->capture_default_str();

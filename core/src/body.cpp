@@ -5,7 +5,7 @@
 namespace plumbline {
 
 std::string_view shape_name(const Shape& shape) {
-  static constexpr std::string_view kNames[] = {"sphere", "box", "half_space"};
+  static constexpr std::string_view kNames[] = {"sphere", "box", "half_space", "cylinder"};
   return kNames[shape.index()];
 }
 
@@ -22,6 +22,11 @@ Vec3 solid_inertia(const Shape& shape, double mass) {
   if (const auto* box = std::get_if<Box>(&shape)) {
     const Vec3 s2 = box->size.cwiseAbs2();
     return mass / 12.0 * Vec3(s2.y() + s2.z(), s2.z() + s2.x(), s2.x() + s2.y());
+  }
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+    const double r2 = cylinder->radius * cylinder->radius, h2 = cylinder->height * cylinder->height;
+    const double across = mass * (3 * r2 + h2) / 12;
+    return {across, across, 0.5 * mass * r2};
   }
   throw std::invalid_argument("a half-space has no inertia: it is infinite and always fixed");
 }

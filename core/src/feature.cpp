@@ -14,6 +14,9 @@ constexpr std::string_view kNames[kFeatureCount] = {
     "contact of a sphere with a box",
     "contact of a box with a half-space",
     "contact of a box with a box",
+    "contact of a cylinder with a half-space",
+    "contact of a cylinder with a cylinder",
+    "contact of a cylinder with a sphere or a box",
     "restitution",
     "friction",
     "ball joints",
@@ -24,12 +27,19 @@ constexpr std::string_view kNames[kFeatureCount] = {
     "limits of joints",
     "joints that close a loop",
     "contact besides joints",
+    "springs",
+    "springs of joints",
 };
 
 bool turns_only_about_y(const Body& body) {
   const BodyState& s = body.initial;
   const bool spins_in_plane = s.w_WB.x() == 0 && s.w_WB.z() == 0;
   if (std::holds_alternative<Sphere>(body.shape)) return spins_in_plane;  // a ball's attitude does not matter
+  if (std::holds_alternative<Cylinder>(body.shape)) {
+    // A disc in the plane: its axis is y. Rounding of an attitude that was written as sqrt(1/2).
+    constexpr double kRounding = 1e-12;
+    return spins_in_plane && (s.q_WB * Vec3::UnitZ()).cross(Vec3::UnitY()).norm() <= kRounding;
+  }
   return spins_in_plane && s.q_WB.x() == 0 && s.q_WB.z() == 0;
 }
 
@@ -38,6 +48,14 @@ bool is_half_space(const Body& b) { return std::holds_alternative<HalfSpace>(b.s
 // The contact feature of two shapes; a pair of half-spaces never moves and needs none.
 void insert_contact(FeatureSet& set, const Body& a, const Body& b) {
   if (is_half_space(a) && is_half_space(b)) return;
+  const bool cylinder_a = std::holds_alternative<Cylinder>(a.shape);
+  if (cylinder_a || std::holds_alternative<Cylinder>(b.shape)) {
+    const Shape& other = cylinder_a ? b.shape : a.shape;
+    set.insert(std::holds_alternative<HalfSpace>(other)  ? Feature::kCylinderHalfSpace
+               : std::holds_alternative<Cylinder>(other) ? Feature::kCylinderCylinder
+                                                         : Feature::kCylinderOther);
+    return;
+  }
   const bool sphere_a = std::holds_alternative<Sphere>(a.shape), sphere_b = std::holds_alternative<Sphere>(b.shape);
   if (is_half_space(a) || is_half_space(b)) {
     set.insert((is_half_space(a) ? sphere_b : sphere_a) ? Feature::kSphereHalfSpace : Feature::kBoxHalfSpace);
@@ -91,6 +109,24 @@ std::string out_of_plane(const Scenario& scenario, const Joint& joint) {
   if (joint.kind == JointKind::kDistance &&
       std::abs(y_of_end(joint.b, joint.on_b.anchor) - y_of_end(joint.a, joint.on_a.anchor)) > kRounding) {
     return "the rod " + joint.name + " leads out of the plane";
+  }
+  return "";
+}
+
+// What keeps a spring from pulling within the plane; empty when nothing does.
+std::string out_of_plane(const Scenario& scenario, const Spring& spring) {
+  constexpr double kRounding = 1e-12;
+  const auto arm_y = [&](std::size_t body, const Vec3& on_body) {
+    return body == kWorld ? 0.0 : (scenario.bodies[body].initial.q_WB * on_body).y();
+  };
+  const auto end_y = [&](std::size_t body, const Vec3& on_body) {
+    return body == kWorld ? on_body.y() : arm_y(body, on_body) + scenario.bodies[body].initial.p_WB.y();
+  };
+  if (std::abs(arm_y(spring.a, spring.on_a)) > kRounding || std::abs(arm_y(spring.b, spring.on_b)) > kRounding) {
+    return "the spring " + spring.name + " pulls beside the plane of its body";
+  }
+  if (std::abs(end_y(spring.a, spring.on_a) - end_y(spring.b, spring.on_b)) > kRounding) {
+    return "the spring " + spring.name + " leads out of the plane";
   }
   return "";
 }
@@ -162,6 +198,9 @@ PlanarView planar_view(const Scenario& scenario) {
   for (const Joint& joint : scenario.joints) {
     if (std::string reason = out_of_plane(scenario, joint); !reason.empty()) return spatial(std::move(reason));
   }
+  for (const Spring& spring : scenario.springs) {
+    if (std::string reason = out_of_plane(scenario, spring); !reason.empty()) return spatial(std::move(reason));
+  }
   for (const ForceLaw& law : scenario.forces) {
     if (law.couples_out_of_plane)
       return spatial("the force on " + scenario.bodies[law.body].name + " couples the plane to motion along y");
@@ -173,6 +212,7 @@ PlanarView planar_view(const Scenario& scenario) {
   if (!leaves_plane) return {Planarity::kPlanar, ""};
   if (scenario.contact) return spatial("bodies that may touch move along y");
   if (!scenario.joints.empty()) return spatial("bodies that joints hold move along y");
+  if (!scenario.springs.empty()) return spatial("bodies that springs pull move along y");
   return {Planarity::kProjection, ""};
 }
 
@@ -182,6 +222,14 @@ FeatureSet needs(const Scenario& scenario) {
   for (const ForceLaw& law : scenario.forces) {
     set.insert(Feature::kForce);
     if (law.has_torque) set.insert(Feature::kTorque);
+  }
+  for (const Spring& spring : scenario.springs) {
+    set.insert(Feature::kForce);
+    if (!spring.on_b.isZero(0) || (spring.a != kWorld && !spring.on_a.isZero(0))) set.insert(Feature::kTorque);
+  }
+  if (!scenario.joint_springs.empty() || !scenario.drives.empty()) {
+    set.insert(Feature::kForce);
+    set.insert(Feature::kTorque);
   }
   if (scenario.contact) {
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {

@@ -20,6 +20,10 @@ double energy(const Scenario& scenario, std::span<const BodyState> states, bool 
     sum += 0.5 * w.dot(inertia_in_world(body, s.q_WB) * w);
     sum -= body.mass * polar(scenario.gravity, in_plane).dot(s.p_WB);
   }
+  for (const Spring& spring : scenario.springs) sum += stored_energy(spring, states);
+  for (const JointSpring& spring : scenario.joint_springs) {
+    sum += stored_energy(spring, scenario.joints[spring.joint], states);
+  }
   return sum;
 }
 

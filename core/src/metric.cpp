@@ -29,6 +29,14 @@ double angular_velocity(const BodyState& a, const BodyState& e, bool in_plane) {
 
 std::size_t common_samples(const Comparison& c) { return std::min(c.actual.samples(), c.expected.samples()); }
 
+// Whether states may be compared one by one at that sample: before chaos has taken over, and where the truth is known.
+bool comparable(const Comparison& c, std::size_t sample) {
+  const double t = c.actual.time(sample), slack = 1e-6 * c.actual.dt();
+  if (t > c.scenario.t_valid + slack) return false;
+  const auto& known = c.scenario.known_at;
+  return known.empty() || std::any_of(known.begin(), known.end(), [&](double k) { return std::abs(t - k) <= slack; });
+}
+
 template <Distance distance>
 double largest_at(const Comparison& c, std::size_t k) {
   double largest = 0;
@@ -43,7 +51,9 @@ double largest_at(const Comparison& c, std::size_t k) {
 template <Distance distance>
 double maximum(const Comparison& c) {
   double largest = 0;
-  for (std::size_t k = 0; k < common_samples(c); ++k) largest = max_or_nan(largest, largest_at<distance>(c, k));
+  for (std::size_t k = 0; k < common_samples(c); ++k) {
+    if (comparable(c, k)) largest = max_or_nan(largest, largest_at<distance>(c, k));
+  }
   return largest;
 }
 
@@ -52,6 +62,7 @@ double root_mean_square(const Comparison& c) {
   double sum = 0;
   std::size_t count = 0;
   for (std::size_t k = 0; k < common_samples(c); ++k) {
+    if (!comparable(c, k)) continue;
     for (std::size_t b = 0; b < c.scenario.bodies.size(); ++b) {
       if (c.scenario.bodies[b].fixed) continue;
       const double d = distance(c.actual.at(k, b), c.expected.at(k, b), c.in_plane);
@@ -64,7 +75,9 @@ double root_mean_square(const Comparison& c) {
 
 template <Distance distance>
 double final_value(const Comparison& c) {
-  return largest_at<distance>(c, common_samples(c) - 1);
+  std::size_t last = common_samples(c);
+  while (last > 0 && !comparable(c, last - 1)) --last;
+  return last == 0 ? std::numeric_limits<double>::quiet_NaN() : largest_at<distance>(c, last - 1);
 }
 
 std::span<const BodyState> sample_of(const Trajectory& t, std::size_t k) {
@@ -135,45 +148,60 @@ double joint_gap(const Comparison& c) {
   return largest;
 }
 
-bool always(const Scenario&) { return true; }
-bool has_events(const Scenario& s) { return !s.events.empty(); }
-bool has_joints(const Scenario& s) { return !s.joints.empty(); }
+double critical_value(const Comparison& c) {
+  return c.critical ? c.critical->middle() : std::numeric_limits<double>::quiet_NaN();
+}
+
+// Half the bracket is what the search itself may miss.
+double critical_error(const Comparison& c) { return (critical_value(c) - c.scenario.threshold->exact); }
+
+bool is_motion(const Scenario& s) { return !s.threshold; }
+bool is_known(const Scenario& s) { return is_motion(s) && s.pointwise; }
+bool is_known_throughout(const Scenario& s) { return is_motion(s) && s.known_at.empty(); }
+bool has_events(const Scenario& s) { return is_motion(s) && !s.events.empty(); }
+bool has_joints(const Scenario& s) { return is_motion(s) && !s.joints.empty(); }
+bool has_threshold(const Scenario& s) { return s.threshold.has_value(); }
 
 constexpr Metric kTable[] = {
-    {"position.max", "m", "largest distance of a centre of mass from the reference", maximum<position>, always},
+    {"position.max", "m", "largest distance of a centre of mass from the reference", maximum<position>, is_known},
     {"position.rms", "m", "root mean square of that distance over samples and bodies", root_mean_square<position>,
-     always},
-    {"position.final", "m", "that distance at the last sample, largest over bodies", final_value<position>, always},
-    {"velocity.max", "m/s", "largest difference of a velocity from the reference", maximum<velocity>, always},
-    {"velocity.rms", "m/s", "root mean square of that difference", root_mean_square<velocity>, always},
-    {"velocity.final", "m/s", "that difference at the last sample", final_value<velocity>, always},
-    {"attitude.max", "rad", "largest geodesic angle between attitude and reference", maximum<attitude>, always},
-    {"attitude.rms", "rad", "root mean square of that angle", root_mean_square<attitude>, always},
-    {"attitude.final", "rad", "that angle at the last sample", final_value<attitude>, always},
+     is_known},
+    {"position.final", "m", "that distance at the last sample, largest over bodies", final_value<position>, is_known},
+    {"velocity.max", "m/s", "largest difference of a velocity from the reference", maximum<velocity>, is_known},
+    {"velocity.rms", "m/s", "root mean square of that difference", root_mean_square<velocity>, is_known},
+    {"velocity.final", "m/s", "that difference at the last sample", final_value<velocity>, is_known},
+    {"attitude.max", "rad", "largest geodesic angle between attitude and reference", maximum<attitude>, is_known},
+    {"attitude.rms", "rad", "root mean square of that angle", root_mean_square<attitude>, is_known},
+    {"attitude.final", "rad", "that angle at the last sample", final_value<attitude>, is_known},
     {"angular_velocity.max", "rad/s", "largest difference of an angular velocity from the reference",
-     maximum<angular_velocity>, always},
+     maximum<angular_velocity>, is_known},
     {"angular_velocity.rms", "rad/s", "root mean square of that difference", root_mean_square<angular_velocity>,
-     always},
-    {"angular_velocity.final", "rad/s", "that difference at the last sample", final_value<angular_velocity>, always},
+     is_known},
+    {"angular_velocity.final", "rad/s", "that difference at the last sample", final_value<angular_velocity>, is_known},
     {"energy.max", "1",
      "signed energy error of largest magnitude, over the scenario's energy scale; a gain is positive",
-     signed_maximum<energy_error>, always},
+     signed_maximum<energy_error>, is_known_throughout},
     {"energy.final", "1", "signed energy error at the last sample, over the scenario's energy scale",
-     signed_final<energy_error>, always},
+     signed_final<energy_error>, is_known_throughout},
     {"momentum.max", "1", "largest error of linear momentum, over the scenario's momentum scale",
-     signed_maximum<momentum_error>, always},
-    {"momentum.final", "1", "error of linear momentum at the last sample", signed_final<momentum_error>, always},
+     signed_maximum<momentum_error>, is_known_throughout},
+    {"momentum.final", "1", "error of linear momentum at the last sample", signed_final<momentum_error>,
+     is_known_throughout},
     {"angular_momentum.max", "1",
      "largest error of angular momentum about the origin, over momentum scale times length scale",
-     signed_maximum<angular_momentum_error>, always},
+     signed_maximum<angular_momentum_error>, is_known_throughout},
     {"angular_momentum.final", "1", "error of angular momentum at the last sample",
-     signed_final<angular_momentum_error>, always},
+     signed_final<angular_momentum_error>, is_known_throughout},
     {"event_time.max", "s", "largest error of the time of an event; infinite when one never happens", event_time_error,
      has_events},
     {"events.missed", "1", "number of events of the reference that the trajectory does not show", events_missed,
      has_events},
     {"joint_gap.max", "m", "how far a joint comes apart at most; for its axes the sine of the angle [rad]", joint_gap,
      has_joints},
+    {"threshold.value", "", "the parameter's value at which the engine's answer changes, as bisection finds it",
+     critical_value, has_threshold},
+    {"threshold.error", "", "that value less the exact one, in the unit of the parameter", critical_error,
+     has_threshold},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "plumbline/core/feature.hpp"
 #include "plumbline/core/joints/joint_equations.hpp"
 
 namespace plumbline {
@@ -61,6 +62,31 @@ void require_sound(const Scenario& scenario) {
       refuse(who + " moves and needs moments of inertia > 0 about all three axes");
     }
   }
+  const auto moves = [&](std::size_t body) { return body < scenario.bodies.size() && !scenario.bodies[body].fixed; };
+  for (const Spring& spring : scenario.springs) {
+    const std::string who = "spring '" + spring.name + "'";
+    if (!moves(spring.b) || (spring.a != kWorld && !moves(spring.a)) || spring.a == spring.b) {
+      refuse(who + " must tie two bodies that move, or one and the world");
+    }
+    for (const double number : {spring.stiffness, spring.damping, spring.length}) {
+      if (!(number >= 0 && std::isfinite(number))) refuse(who + ": stiffness, damping and length must be >= 0");
+    }
+    if (!spring.on_a.allFinite() || !spring.on_b.allFinite()) refuse(who + ": its points must be finite");
+  }
+  const auto require_coordinate = [&](std::size_t joint, const char* what) {
+    if (joint >= scenario.joints.size()) refuse(std::string(what) + " acts on a joint that does not exist");
+    const JointKind kind = scenario.joints[joint].kind;
+    if (kind == JointKind::kHinge || kind == JointKind::kSlider) return;
+    refuse("joint '" + scenario.joints[joint].name + "': " + what + " needs a hinge or a slider to act on");
+  };
+  for (const JointDrive& drive : scenario.drives) require_coordinate(drive.joint, "a drive");
+  for (const JointSpring& spring : scenario.joint_springs) {
+    require_coordinate(spring.joint, "a spring");
+    if (!(spring.stiffness >= 0 && std::isfinite(spring.stiffness) && spring.damping >= 0 &&
+          std::isfinite(spring.damping) && std::isfinite(spring.rest))) {
+      refuse("joint '" + scenario.joints[spring.joint].name + "': stiffness and damping must be >= 0, rest finite");
+    }
+  }
   if (scenario.joints.empty()) return;
   std::vector<BodyState> states;
   for (const Body& body : scenario.bodies) states.push_back(body.initial);
@@ -98,13 +124,47 @@ ArticulatedBody articulated_body(const Scenario& scenario) {
   return result;
 }
 
+std::string_view tier_name(Tier tier) {
+  static constexpr std::string_view kNames[] = {"smoke", "standard", "full"};
+  return kNames[static_cast<std::size_t>(tier)];
+}
+
+bool has_forces(const Scenario& scenario, const FeatureSet& native) {
+  return !scenario.forces.empty() || !scenario.drives.empty() ||
+         (!scenario.springs.empty() && !native.contains(Feature::kSpring)) ||
+         (!scenario.joint_springs.empty() && !native.contains(Feature::kJointSpring));
+}
+
 void evaluate_forces(const Scenario& scenario, double t, std::span<const BodyState> states,
                      std::span<Wrench> wrenches) {
+  evaluate_forces(scenario, t, states, wrenches, {});
+}
+
+void evaluate_forces(const Scenario& scenario, double t, std::span<const BodyState> states, std::span<Wrench> wrenches,
+                     const FeatureSet& native) {
   std::fill(wrenches.begin(), wrenches.end(), Wrench{});
   for (const ForceLaw& law : scenario.forces) {
     const Wrench wrench = law.evaluate(t, states[law.body]);
     wrenches[law.body].f_W += wrench.f_W;
     wrenches[law.body].tau_W += wrench.tau_W;
+  }
+  if (!native.contains(Feature::kSpring)) {
+    for (const Spring& spring : scenario.springs) add_wrenches(spring, states, wrenches);
+  }
+  if (!native.contains(Feature::kJointSpring)) {
+    for (const JointSpring& spring : scenario.joint_springs) {
+      const Joint& joint = scenario.joints[spring.joint];
+      add_wrenches(joint, effort_of(spring, joint, states), states, wrenches);
+    }
+  }
+  for (const JointDrive& drive : scenario.drives) {
+    const Joint& joint = scenario.joints[drive.joint];
+    const JointRow row = coordinate_row(joint, states);
+    add_wrenches(joint, drive.effort(t, row.error, rate(row, states)), states, wrenches);
+  }
+  // A wrench of a fixed body moves nothing; engines are promised zero.
+  for (std::size_t i = 0; i < wrenches.size(); ++i) {
+    if (scenario.bodies[i].fixed) wrenches[i] = {};
   }
 }
 

@@ -99,6 +99,11 @@ RunResult begin_result(const Scenario& scenario, const EngineInfo& engine, Profi
   if (measured_in_plane(scenario, engine)) {
     result.notes.push_back("planar projection: motion along y is uncoupled, not simulated and not measured");
   }
+  const bool applied = !scenario.springs.empty() && !engine.features.contains(Feature::kSpring);
+  const bool joints_applied = !scenario.joint_springs.empty() && !engine.features.contains(Feature::kJointSpring);
+  if (applied || joints_applied) {
+    result.notes.push_back("springs applied from outside: the engine has none, their force is held over a step");
+  }
   return result;
 }
 
@@ -109,7 +114,7 @@ void assess(RunResult& result, const Comparison& comparison, const EngineInfo& e
       result.metrics.emplace_back(std::string(metric.name), metric.measure(comparison));
     }
   }
-  result.curve = error_curve(comparison);
+  if (comparison.scenario.pointwise && !comparison.scenario.threshold) result.curve = error_curve(comparison);
   const GateTally tally = check_gates(result, comparison, engine, deviations);
   if (not_finite_at) {
     result.verdict = Verdict::kDiverged;

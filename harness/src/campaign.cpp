@@ -118,7 +118,10 @@ class Campaign {
       const CaseInput& input = cases_[run.case_index];
       const std::size_t samples = input.scenario.step_count(run.dt) + 1;
       group.expected = sample(*input.reference, input.scenario.bodies.size(), run.dt, samples);
-      group.schemes = scheme_trajectories(input.scenario, run.dt);
+      // A scheme explains how far a trajectory is from a known one; elsewhere there is nothing to explain.
+      if (input.scenario.pointwise && !input.scenario.threshold) {
+        group.schemes = scheme_trajectories(input.scenario, run.dt);
+      }
       Magnitude& m = magnitudes_[run.case_index];
       const Magnitude here = magnitude_of(input.scenario, group.expected);
       m = {std::max(m.position, here.position), std::max(m.velocity, here.velocity)};
@@ -168,8 +171,8 @@ class Campaign {
     const Trajectory& trajectory = outcome.recording.trajectory;
     Group& group = group_of(run);
     const bool in_plane = measured_in_plane(input.scenario, engine.info);
-    assess(result, {input.scenario, trajectory, group.expected, in_plane}, engine.info, outcome.recording.not_finite_at,
-           {engine.deviations, deviations_must_apply_ && engine.changed.empty()});
+    assess(result, {input.scenario, trajectory, group.expected, in_plane, outcome.recording.critical}, engine.info,
+           outcome.recording.not_finite_at, {engine.deviations, deviations_must_apply_ && engine.changed.empty()});
     if (!outcome.recording.not_finite_at && trajectory.samples() != group.expected.samples()) {
       result.verdict = Verdict::kError;
       result.reason =

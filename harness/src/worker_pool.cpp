@@ -43,6 +43,7 @@ void read_answer(const Frame& frame, const RunRequest& request, RunOutcome& outc
   outcome.recording.trajectory = unpack(frame.block, request.dt, request.scenario->bodies.size());
   if (outcome.recording.trajectory.samples() == 0) throw std::runtime_error("the trajectory is empty");
   outcome.recording.wall_seconds = result.at("wall_seconds");
+  if (result.contains("critical")) outcome.recording.critical = {result["critical"].at(0), result["critical"].at(1)};
   if (result.contains("not_finite_at")) outcome.recording.not_finite_at = result["not_finite_at"].get<std::size_t>();
   outcome.settings = settings_from_json(result.at("settings"));
 }

@@ -71,6 +71,7 @@ Frame answer_run(const json& params, const std::vector<std::unique_ptr<Engine>>&
                           {"shape", {recording.trajectory.samples(), recording.trajectory.bodies(), kStateDoubles}},
                           {"settings", to_json(settings)},
                           {"wall_seconds", recording.wall_seconds}};
+  if (recording.critical) frame.json["result"]["critical"] = {recording.critical->no, recording.critical->yes};
   if (recording.not_finite_at) frame.json["result"]["not_finite_at"] = *recording.not_finite_at;
   return frame;
 }

@@ -35,6 +35,9 @@ class ClosedForm : public Reference {
   double uncertainty() const override { return uncertainty_; }
   std::string_view citation() const override { return citation_; }
   std::string_view kind() const override { return "closed_form"; }
+  std::string_view bound_source() const override {
+    return uncertainty_stated_ ? "stated in the file" : "rounding of a few operations in double precision";
+  }
 
  private:
   friend class ClosedFormReader;
@@ -43,6 +46,7 @@ class ClosedForm : public Reference {
     std::vector<std::pair<std::size_t, Expression>> components;
   };
   double uncertainty_ = kDefaultUncertainty;
+  bool uncertainty_stated_ = false;
   std::string citation_;
   std::vector<Motion> motions_;
   std::vector<Expression> let_;
@@ -55,7 +59,10 @@ class ClosedFormReader {
       : table_(table), constants_(constants), scenario_(scenario), result_(std::make_shared<ClosedForm>()) {}
 
   std::shared_ptr<const Reference> read() {
-    if (const Node* u = find(table_, "uncertainty")) result_->uncertainty_ = positive_number(*u, constants_);
+    if (const Node* u = find(table_, "uncertainty")) {
+      result_->uncertainty_ = positive_number(*u, constants_);
+      result_->uncertainty_stated_ = true;
+    }
     // The scenario's own source serves unless the solution has another one.
     const Node* citation = find(table_, "citation");
     result_->citation_ = citation != nullptr ? as_text(*citation) : scenario_.source;

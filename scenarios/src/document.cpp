@@ -46,6 +46,7 @@ Node convert(const toml::node& source, const std::string& file, std::string path
     node.number = source.value<double>().value();
   } else {
     node.kind = source.is_boolean() ? NodeKind::kBoolean : NodeKind::kDate;
+    if (source.is_boolean()) node.number = source.value<bool>().value() ? 1 : 0;
   }
   return node;
 }
@@ -110,6 +111,11 @@ const std::string& as_text(const Node& node) {
   if (node.kind != NodeKind::kText) wrong_type(node, "text in quotes");
   if (node.text.find_first_not_of(" \t\n") == std::string::npos) fail(node, "is empty; write what it stands for");
   return node.text;
+}
+
+bool as_boolean(const Node& node) {
+  if (node.kind != NodeKind::kBoolean) wrong_type(node, "true or false");
+  return node.number != 0;
 }
 
 const std::vector<Node>& as_array(const Node& node) {

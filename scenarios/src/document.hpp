@@ -19,7 +19,7 @@ struct Node {
   NodeKind kind = NodeKind::kTable;
   SourcePlace place;
   std::string path;   // "/gate/0/limit"; "/" for the whole file
-  double number = 0;  // integers too: 53 bits are plenty for what a scenario counts
+  double number = 0;  // integers too: 53 bits are plenty for what a scenario counts; true is 1
   std::string text;
   std::vector<Node> items;
   std::vector<Entry> entries;  // in the order of the file
@@ -49,6 +49,7 @@ const Node& need(const Node& table, std::string_view key, std::string_view examp
 // Typed views; each throws when the node is something else.
 const Node& as_table(const Node& node);
 const std::string& as_text(const Node& node);  // not empty
+bool as_boolean(const Node& node);
 const std::vector<Node>& as_array(const Node& node);
 const std::vector<Node>& as_array(const Node& node, std::size_t count);
 // The elements of an array of tables ([[key]]); empty when the key is absent.

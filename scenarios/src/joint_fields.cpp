@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "expression.hpp"
 #include "plumbline/core/joints/joint_equations.hpp"
@@ -37,7 +38,8 @@ class JointReader {
   }
 
   Joint read() const {
-    allow_only(table_, {"name", "kind", "between", "anchor", "anchors", "axis"});
+    allow_only(table_, {"name", "kind", "between", "anchor", "anchors", "axis", "range", "stiffness", "damping", "rest",
+                        "drive"});
     const std::string& name = as_text(need(table_, "name", "name = \"hinge\""));
     const Node& kind_node = need(table_, "kind", "kind = \"hinge\"  # ball, hinge, slider, fixed or distance");
     as_text(kind_node);
@@ -51,6 +53,7 @@ class JointReader {
     if (turned) std::swap(a, b);
     Joint joint = kind == JointKind::kDistance ? read_rod(a, b, turned) : read_frame(kind, a, b);
     joint.name = name;
+    read_range(joint);
     require_rates(joint, kind);
     return joint;
   }
@@ -89,6 +92,23 @@ class JointReader {
     const Vec3 axis = vector3(axis_node, constants_);
     if (!(axis.norm() > 0)) fail(axis_node, "must not be the zero vector; [0, 1, 0] turns in the x-z plane");
     return joint_at(kind, a, b, states_, anchor, axis);
+  }
+
+  void read_range(Joint& joint) const {
+    const Node* node = find(table_, "range");
+    if (node == nullptr) return;
+    if (joint.kind != JointKind::kHinge && joint.kind != JointKind::kSlider) {
+      fail(*node, "only hinges and sliders have a coordinate to bound; remove this line");
+    }
+    const auto& bounds = as_array(*node, 2);
+    const JointRange range{number(bounds[0], constants_), number(bounds[1], constants_)};
+    if (!(range.low <= 0 && 0 <= range.high && range.low < range.high)) {
+      fail(*node, "must hold 0, where the joint starts: [low, high] with low <= 0 <= high");
+    }
+    if (joint.kind == JointKind::kHinge && !(range.low > -std::numbers::pi && range.high < std::numbers::pi)) {
+      fail(*node, "the angle of a hinge is known within (-pi, pi); take bounds inside it");
+    }
+    joint.range = range;
   }
 
   void require_rates(const Joint& joint, JointKind kind) const {

@@ -6,8 +6,10 @@
 #include <stdexcept>
 
 #include "closed_form.hpp"
+#include "computed_reference.hpp"
 #include "solution.hpp"
 #include "spelling.hpp"
+#include "stated_reference.hpp"
 
 namespace plumbline {
 namespace {
@@ -33,13 +35,22 @@ std::shared_ptr<const Reference> read_solution(const Node& table, const Scenario
 
 }  // namespace
 
-std::shared_ptr<const Reference> read_reference(const Node& root, const Parameters& constants,
-                                                const Scenario& scenario) {
+std::shared_ptr<const Reference> read_reference(const Node& root, const Parameters& constants, Scenario& scenario) {
+  static const std::vector<std::string> kKinds = {"closed_form", "solution",   "ode",      "events",
+                                                  "table",       "invariants", "threshold"};
   const Node& table = as_table(need(root, "reference", "[reference] with kind = \"closed_form\" and the solution"));
-  const Node& kind = need(table, "kind", "kind = \"closed_form\"  # or \"solution\"");
-  if (as_text(kind) == "closed_form") return read_closed_form(table, constants, scenario);
+  const Node& kind = need(table, "kind", "kind = \"closed_form\"  # or " + fmt::format("{}", fmt::join(kKinds, ", ")));
+  if (const bool asks = as_text(kind) == "threshold"; asks != (find(root, "threshold") != nullptr)) {
+    fail(kind, asks ? "there is no [threshold]; add the question and its exact answer"
+                    : "a [threshold] asks for a value, not for a motion; write kind = \"threshold\"");
+  }
+  if (kind.text == "closed_form") return read_closed_form(table, constants, scenario);
   if (kind.text == "solution") return read_solution(table, scenario);
-  fail(kind, fmt::format("unknown kind '{}'; known: closed_form, solution", kind.text));
+  if (kind.text == "ode" || kind.text == "events") return read_computed(table, constants, scenario);
+  if (kind.text == "table") return read_table(table, constants, scenario);
+  if (kind.text == "invariants" || kind.text == "threshold") return read_without_motion(table, scenario);
+  fail(kind, fmt::format("unknown kind '{}'; {}known: {}", kind.text, did_you_mean(kind.text, kKinds),
+                         fmt::join(kKinds, ", ")));
 }
 
 }  // namespace plumbline

@@ -9,8 +9,7 @@
 
 namespace plumbline {
 
-// kind = "closed_form" or "solution". Throws ScenarioError.
-std::shared_ptr<const Reference> read_reference(const Node& root, const Parameters& constants,
-                                                const Scenario& scenario);
+// Throws ScenarioError. What the reference does not know of the motion is noted in the scenario (pointwise, known_at).
+std::shared_ptr<const Reference> read_reference(const Node& root, const Parameters& constants, Scenario& scenario);
 
 }  // namespace plumbline

@@ -7,14 +7,20 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <memory>
+#include <stdexcept>
 
+#include "certificate_fields.hpp"
 #include "document.hpp"
 #include "expression.hpp"
 #include "gate_fields.hpp"
 #include "joint_fields.hpp"
 #include "reference_table.hpp"
 #include "scene.hpp"
+#include "spelling.hpp"
+#include "spring_fields.hpp"
 #include "sweep.hpp"
+#include "threshold_fields.hpp"
 
 namespace plumbline {
 namespace {
@@ -65,17 +71,56 @@ std::string read_id(const Node& root) {
   return id;
 }
 
-Case read_case(const Node& root, const ParameterSet& set) {
+// Unless the file says otherwise, its first case is what a quick run shows of it.
+Tier read_tier(const Node& root, bool is_first) {
+  Tier least = Tier::kSmoke;
+  if (const Node* node = find(root, "tier")) {
+    static const std::vector<std::string> kTiers = {"smoke", "standard", "full"};
+    const auto found = std::find(kTiers.begin(), kTiers.end(), as_text(*node));
+    if (found == kTiers.end()) {
+      fail(*node, fmt::format("unknown tier '{}'; {}known: {}", node->text, did_you_mean(node->text, kTiers),
+                              fmt::join(kTiers, ", ")));
+    }
+    least = static_cast<Tier>(found - kTiers.begin());
+  }
+  return std::max(least, is_first ? Tier::kSmoke : Tier::kStandard);
+}
+
+double read_t_valid(const Node& root, const Parameters& constants, double duration) {
+  const Node* node = find(root, "t_valid");
+  if (node == nullptr) return duration;  // a closed form holds for as long as it is stated
+  const double t = positive_number(*node, constants);
+  if (t > duration) fail(*node, fmt::format("is beyond the duration, {} s; remove this line", shortest(duration)));
+  return t;
+}
+
+Scenario read_scene(const std::shared_ptr<const Node>& file, const ParameterSet& set);
+
+// The questions of a threshold are asked of the same file with one parameter changed.
+ScenarioWith scenario_with(const std::shared_ptr<const Node>& file, const ParameterSet& set) {
+  return [file, set](const std::string& parameter, double value) {
+    ParameterSet changed = set;
+    for (auto& [name, current] : changed.values) {
+      if (name == parameter) current = value;
+    }
+    auto scenario = std::make_shared<Scenario>(read_scene(file, changed));
+    scenario->threshold.reset();
+    return scenario;
+  };
+}
+
+// What happens, without what is known of it.
+Scenario read_scene(const std::shared_ptr<const Node>& file, const ParameterSet& set) {
+  const Node& root = *file;
   const Parameters constants = with_derived(root, set.values);
-  Case result;
-  Scenario& s = result.scenario;
+  Scenario s;
   s.id = read_id(root);
   s.about = as_text(need(root, "about", "about = \"one line on what happens\""));
   s.source = as_text(need(root, "source", "source = \"slide, paper or page\""));
   s.parameters = set.values;
   s.swept = set.swept;
   s.duration = positive_number(need(root, "duration", "duration = 1.0  # s"), constants);
-  s.t_valid = s.duration;  // a closed form holds for as long as it is stated
+  s.t_valid = read_t_valid(root, constants, s.duration);
   s.steps = read_steps(root, constants, s.duration);
   if (const Node* gravity = find(root, "gravity")) s.gravity = vector3(*gravity, constants);
   s.scales = read_scales(root, constants);
@@ -83,17 +128,37 @@ Case read_case(const Node& root, const ParameterSet& set) {
   s.joints = read_joints(root, constants, s);
   s.contact = read_contact(root, constants);
   s.forces = read_forces(root, constants, s.bodies);
+  s.springs = read_springs(root, constants, s);
+  s.joint_springs = read_joint_springs(root, constants, s);
+  s.drives = read_drives(root, constants, s);
+  s.threshold = read_threshold(root, constants, s, scenario_with(file, set));
+  return s;
+}
+
+Case read_case(const std::shared_ptr<const Node>& file, const ParameterSet& set, bool is_first) {
+  const Node& root = *file;
+  const Parameters constants = with_derived(root, set.values);
+  Case result{read_scene(file, set), nullptr};
+  Scenario& s = result.scenario;
+  s.tier = read_tier(root, is_first);
   s.events = read_events(root, constants, s);
   result.reference = read_reference(root, constants, s);
   s.gates = read_gates(root, constants, s);
+  s.certificates = read_certificates(root, constants, s);
   return result;
 }
 
-std::vector<Case> read_document(const Node& root, const Overrides& overrides) {
-  allow_only(root, {"id", "about", "source", "duration", "steps", "gravity", "parameters", "derived", "scales",
-                    "contact", "body", "joint", "force", "reference", "event", "gate"});
+void allow_known_tables(const Node& root) {
+  allow_only(root, {"id",      "about",      "source",    "duration",  "t_valid", "tier", "steps",
+                    "gravity", "parameters", "derived",   "scales",    "contact", "body", "joint",
+                    "spring",  "force",      "threshold", "reference", "event",   "gate", "certificate"});
+}
+
+std::vector<Case> read_document(Node root, const Overrides& overrides) {
+  allow_known_tables(root);
+  const auto file = std::make_shared<const Node>(std::move(root));
   std::vector<Case> cases;
-  for (const ParameterSet& set : expand_sweeps(root, overrides)) cases.push_back(read_case(root, set));
+  for (const ParameterSet& set : expand_sweeps(*file, overrides)) cases.push_back(read_case(file, set, cases.empty()));
   return cases;
 }
 
@@ -101,6 +166,16 @@ std::vector<Case> read_document(const Node& root, const Overrides& overrides) {
 
 std::vector<Case> read_scenario(std::string_view text, const std::string& file, const Overrides& overrides) {
   return read_document(parse_document(text, file), overrides);
+}
+
+Scenario read_problem(std::string_view text, const std::string& file, const Parameters& parameters) {
+  Node root = parse_document(text, file);
+  allow_known_tables(root);
+  Overrides overrides;
+  for (const auto& [name, value] : parameters) overrides[name] = {value};
+  const auto sets = expand_sweeps(root, overrides);
+  if (sets.size() != 1) throw std::invalid_argument(file + ": the parameters do not single out one case");
+  return read_scene(std::make_shared<const Node>(std::move(root)), sets.front());
 }
 
 std::vector<Case> read_scenario_file(const std::filesystem::path& file, const Overrides& overrides) {

@@ -17,8 +17,9 @@ Vec3 direction(const Node& node, const Parameters& constants) {
 }
 
 Shape read_shape(const Node& node, const Parameters& constants) {
-  static const std::vector<std::string> kShapes = {"sphere", "box", "half_space"};
-  static constexpr std::string_view kForms = "{ sphere = r }, { box = [x, y, z] } or { half_space = [nx, ny, nz] }";
+  static const std::vector<std::string> kShapes = {"sphere", "box", "half_space", "cylinder"};
+  static constexpr std::string_view kForms =
+      "{ sphere = r }, { box = [x, y, z] }, { cylinder = [r, h] } or { half_space = [nx, ny, nz] }";
   if (as_table(node).entries.size() != 1) fail(node, fmt::format("must name one shape: {}", kForms));
   const Entry& shape = node.entries.front();
   if (shape.key == "sphere") return Sphere{positive_number(shape.value, constants)};
@@ -27,6 +28,10 @@ Shape read_shape(const Node& node, const Parameters& constants) {
     const auto& edges = as_array(shape.value, 3);
     return Box{{positive_number(edges[0], constants), positive_number(edges[1], constants),
                 positive_number(edges[2], constants)}};
+  }
+  if (shape.key == "cylinder") {
+    const auto& sizes = as_array(shape.value, 2);
+    return Cylinder{positive_number(sizes[0], constants), positive_number(sizes[1], constants)};
   }
   fail(shape.key_place, shape.value.path,
        fmt::format("unknown shape; {}write {}", did_you_mean(shape.key, kShapes), kForms));
@@ -67,7 +72,8 @@ std::string read_name(const Node& table, const std::vector<Body>& earlier) {
 }
 
 Body read_body(const Node& table, const Parameters& constants, const std::vector<Body>& earlier) {
-  allow_only(table, {"name", "shape", "mass", "inertia", "position", "attitude", "velocity", "angular_velocity"});
+  allow_only(table,
+             {"name", "shape", "mass", "inertia", "position", "attitude", "velocity", "angular_velocity", "fixed"});
   Body body{read_name(table, earlier), Sphere{1}, false, 0, Vec3::Zero(), {}};
   body.shape = read_shape(need(table, "shape", "shape = { sphere = 0.5 }"), constants);
   if (const Node* p = find(table, "position")) body.initial.p_WB = vector3(*p, constants);
@@ -76,12 +82,22 @@ Body read_body(const Node& table, const Parameters& constants, const std::vector
     for (const char* key : {"mass", "inertia", "attitude", "velocity", "angular_velocity"}) {
       if (const Node* node = find(table, key)) fail(*node, "a half_space is always fixed; remove this line");
     }
+    if (const Node* fixed = find(table, "fixed"); fixed != nullptr && !as_boolean(*fixed)) {
+      fail(*fixed, "a half_space is always fixed; remove this line");
+    }
+    return body;
+  }
+  if (const Node* q = find(table, "attitude")) body.initial.q_WB = read_attitude(*q, constants);
+  if (const Node* fixed = find(table, "fixed"); fixed != nullptr && as_boolean(*fixed)) {
+    body.fixed = true;
+    for (const char* key : {"mass", "inertia", "velocity", "angular_velocity"}) {
+      if (const Node* node = find(table, key)) fail(*node, "a fixed body never moves; remove this line, or fixed");
+    }
     return body;
   }
   body.mass = positive_number(need(table, "mass", "mass = 1.0  # kg"), constants);
   const Node* inertia = find(table, "inertia");
   body.inertia = inertia != nullptr ? read_inertia(*inertia, constants) : solid_inertia(body.shape, body.mass);
-  if (const Node* q = find(table, "attitude")) body.initial.q_WB = read_attitude(*q, constants);
   if (const Node* v = find(table, "velocity")) body.initial.v_WB = vector3(*v, constants);
   if (const Node* w = find(table, "angular_velocity")) body.initial.w_WB = vector3(*w, constants);
   return body;

@@ -15,6 +15,9 @@ class NamedSolution : public Reference {
   explicit NamedSolution(std::string citation) : citation_(std::move(citation)) {}
   std::string_view citation() const override { return citation_; }
   std::string_view kind() const override { return "solution"; }
+  std::string_view bound_source() const override {
+    return "rounding of the solution's own steps, magnified as the motion magnifies it";
+  }
 
  private:
   std::string citation_;

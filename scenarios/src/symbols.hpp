@@ -16,6 +16,9 @@ inline constexpr std::array<std::string_view, 14> kForceSymbols = {"t",  "x",  "
 inline constexpr std::size_t kComponentCount = 13;
 inline constexpr std::string_view component_name(std::size_t i) { return kForceSymbols[i + 1]; }
 
+// Drives of joints: time, the joint's coordinate and its rate.
+inline constexpr std::array<std::string_view, 3> kDriveSymbols = {"t", "q", "dq"};
+
 // Limits of gates.
 inline constexpr std::array<std::string_view, 3> kGateSymbols = {"dt", "steps", "unit_roundoff"};
 inline constexpr std::array<std::string_view, 7> kGateConstants = {

@@ -27,7 +27,8 @@ class CampaignTest : public ::testing::Test {
       }
     }
     EXPECT_EQ(rows.size(), names.size());
-    const auto plan = plan_runs(cases_, infos, {Profile::kMatched}, [](const std::string&) { return true; });
+    const auto plan =
+        plan_runs(cases_, infos, {Profile::kMatched}, Tier::kFull, [](const std::string&) { return true; });
     std::atomic<bool> stop = false;
     std::size_t finished = 0;
     CampaignObserver observer;

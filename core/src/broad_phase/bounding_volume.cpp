@@ -28,9 +28,17 @@ Aabb box_of(const HalfSpace& half_space, const BodyState& state) {
   return all;
 }
 
+Aabb box_of(const Cylinder& cylinder, const BodyState& state) {
+  // Axis a, unit: the flat ends reach |a_k| h/2 along axis k, their rims another r sqrt(1 - a_k^2).
+  const Vec3 axis = state.q_WB * Vec3::UnitZ();
+  const Vec3 rim = (1 - axis.array().square()).max(0).sqrt() * cylinder.radius;
+  return around(state.p_WB, 0.5 * cylinder.height * axis.cwiseAbs() + rim);
+}
+
 double radius_of(const Sphere& sphere) { return sphere.radius; }
 double radius_of(const Box& box) { return 0.5 * box.size.norm(); }
 double radius_of(const HalfSpace&) { return kInf; }
+double radius_of(const Cylinder& cylinder) { return std::hypot(cylinder.radius, 0.5 * cylinder.height); }
 
 }  // namespace
 

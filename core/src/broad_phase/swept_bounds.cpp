@@ -55,13 +55,20 @@ Vec3 swept_half_widths(const Box& box, const Motion& motion, double duration) {
   return (start.cwiseMax(end).array() + sagitta).min(radius);
 }
 
+// Whatever way it turns, its sphere holds it.
+Vec3 swept_half_widths(const Cylinder& cylinder, const Motion&, double) {
+  return Vec3::Constant(std::hypot(cylinder.radius, 0.5 * cylinder.height));
+}
+
+// Not used: a half-space bounds itself.
+Vec3 swept_half_widths(const HalfSpace&, const Motion&, double) { return Vec3::Zero(); }
+
 }  // namespace
 
 Aabb swept_box(const Shape& shape, const Motion& motion, double duration) {
   const Aabb path = path_box(motion, duration);
   if (std::holds_alternative<HalfSpace>(shape)) return bounding_box(shape, motion.start);
-  const Vec3 half = std::holds_alternative<Sphere>(shape) ? swept_half_widths(std::get<Sphere>(shape), motion, duration)
-                                                          : swept_half_widths(std::get<Box>(shape), motion, duration);
+  const Vec3 half = std::visit([&](const auto& s) { return swept_half_widths(s, motion, duration); }, shape);
   const Aabb box{path.min - half, path.max + half};
   return grown(box, rounding(box));
 }

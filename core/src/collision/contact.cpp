@@ -9,13 +9,19 @@
 namespace plumbline {
 namespace {
 
+std::string describe(const Body& body) { return std::string(shape_name(body.shape)) + " '" + body.name + "'"; }
+
+void refuse_cylinder(const Body& body) {
+  if (!std::holds_alternative<Cylinder>(body.shape)) return;
+  throw std::invalid_argument("the contact of " + describe(body) + " cannot be computed: of solids only spheres and " +
+                              "boxes; take a sphere of the same radius and moments of inertia where that will do");
+}
+
 // In the order of Pair: spheres, boxes, half-spaces.
 bool comes_after(const Body& a, const Body& b) { return a.shape.index() > b.shape.index(); }
-static_assert(std::is_same_v<Shape, std::variant<Sphere, Box, HalfSpace>>);
+static_assert(std::is_same_v<Shape, std::variant<Sphere, Box, HalfSpace, Cylinder>>);
 
 bool is_half_space(const Body& body) { return std::holds_alternative<HalfSpace>(body.shape); }
-
-std::string describe(const Body& body) { return std::string(shape_name(body.shape)) + " '" + body.name + "'"; }
 
 }  // namespace
 
@@ -75,6 +81,8 @@ std::vector<Pair> contact_pairs(std::span<const Body> bodies) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
       if (bodies[i].fixed && bodies[j].fixed) continue;
+      refuse_cylinder(bodies[i]);
+      refuse_cylinder(bodies[j]);
       if (is_half_space(bodies[i]) && is_half_space(bodies[j])) {
         throw std::invalid_argument("the contact of " + describe(bodies[i]) + " with " + describe(bodies[j]) +
                                     " cannot be computed: half-spaces never move; make both fixed");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <stdexcept>
 
 #include "plumbline/core/collision/polyhedron_impact.hpp"
 #include "plumbline/core/collision/sphere_box_impact.hpp"
@@ -90,10 +91,30 @@ std::optional<Touch> meet(const HalfSpace&, const Motion&, const HalfSpace&, con
   return std::nullopt;
 }
 
+// Never called: shapes_meet refuses cylinders before it asks who meets whom.
+template <typename Shape>
+std::optional<Touch> meet(const Cylinder&, const Motion&, const Shape&, const Motion&, double) {
+  return std::nullopt;
+}
+template <typename Shape>
+std::optional<Touch> meet(const Shape&, const Motion&, const Cylinder&, const Motion&, double) {
+  return std::nullopt;
+}
+std::optional<Touch> meet(const Cylinder&, const Motion&, const Cylinder&, const Motion&, double) {
+  return std::nullopt;
+}
+std::optional<Touch> meet(const HalfSpace&, const Motion&, const Cylinder&, const Motion&, double) {
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Touch> shapes_meet(const Shape& a, const Motion& motion_a, const Shape& b, const Motion& motion_b,
                                  double horizon) {
+  if (std::holds_alternative<Cylinder>(a) || std::holds_alternative<Cylinder>(b)) {
+    throw std::invalid_argument(
+        "the time of impact of a cylinder cannot be computed; take a sphere, box or polyhedron");
+  }
   return std::visit(
       [&](const auto& shape_a, const auto& shape_b) { return meet(shape_a, motion_a, shape_b, motion_b, horizon); }, a,
       b);

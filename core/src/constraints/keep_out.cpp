@@ -13,6 +13,9 @@ struct HasSize {
   bool operator()(const Sphere& sphere) const { return sphere.radius > 0; }
   bool operator()(const Box& box) const { return box.size.minCoeff() > 0; }
   bool operator()(const HalfSpace& half_space) const { return half_space.normal.norm() > 0; }
+  bool operator()(const Cylinder&) const {
+    throw std::invalid_argument("an obstacle is a sphere, a box or a half-space; a cylinder is none of them");
+  }
 };
 
 const Obstacle& checked(const Obstacle& obstacle) {

@@ -36,6 +36,11 @@ PointGap point_gap(const Box& box, const Obstacle& o, const Vec3& p_W) {
   return {beyond.hasNaN() ? std::numeric_limits<double>::quiet_NaN() : depth, o.q_WO * n};
 }
 
+// keep_out.cpp refuses cylinders; who asks all the same gets what fails everywhere.
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+PointGap point_gap(const Cylinder&, const Obstacle&, const Vec3&) { return {kUnknown, Vec3::UnitZ()}; }
+LinkGap link_gap(const Cylinder&, const Obstacle&, const Vec3&, const Vec3&) { return {kUnknown, Vec3::UnitZ(), 0.5}; }
+
 LinkGap link_gap(const Sphere& sphere, const Obstacle& o, const Vec3& a_W, const Vec3& b_W) {
   const Vec3 along = b_W - a_W;
   const double length2 = along.squaredNorm();

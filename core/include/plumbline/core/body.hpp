@@ -22,9 +22,15 @@ struct HalfSpace {
   Vec3 normal;  // outward unit normal, in W
 };
 
-using Shape = std::variant<Sphere, Box, HalfSpace>;
+// Solid, its axis the z axis of the body, the origin at the centre.
+struct Cylinder {
+  double radius;  // [m]
+  double height;  // along z [m]
+};
 
-// "sphere", "box", "half_space": the word that scenario files use.
+using Shape = std::variant<Sphere, Box, HalfSpace, Cylinder>;
+
+// "sphere", "box", "half_space", "cylinder": the word that scenario files use.
 std::string_view shape_name(const Shape& shape);
 
 struct Body {
@@ -40,7 +46,8 @@ struct Body {
 void require_mass(const Body& body);
 
 // Principal moments [kg m^2] about the centre of mass of a homogeneous solid of that shape and mass [kg]:
-// sphere 2/5 m r^2; box m/12 (b^2 + c^2) and its permutations. A half-space has none: throws std::invalid_argument.
+// sphere 2/5 m r^2; box m/12 (b^2 + c^2) and its permutations; cylinder m r^2/2 about its axis and m (3 r^2 + h^2)/12
+// across. A half-space has none: throws std::invalid_argument.
 Vec3 solid_inertia(const Shape& shape, double mass);
 
 // Inertia tensor about the centre of mass expressed in W [kg m^2]: R diag(inertia) R^T.

@@ -19,8 +19,11 @@ enum class Feature : std::size_t {
   kSphereBox,
   kBoxHalfSpace,
   kBoxBox,
-  kRestitution,  // e > 0
-  kFriction,     // mu > 0
+  kCylinderHalfSpace,
+  kCylinderCylinder,
+  kCylinderOther,  // with a sphere or a box
+  kRestitution,    // e > 0
+  kFriction,       // mu > 0
   kBallJoint,
   kHinge,
   kSlider,
@@ -29,6 +32,10 @@ enum class Feature : std::size_t {
   kJointRange,        // limits of a joint's coordinate
   kJointLoop,         // joints that close a loop, over the world or not
   kJointsAndContact,  // joints and contact in one scenario
+  // Offered, never needed: force elements that the engine computes itself, within its step. For an engine without them
+  // they are evaluated at the start of each step and handed to it as forces (force_element.hpp).
+  kSpring,       // springs and dampers between two points
+  kJointSpring,  // springs and dampers on the coordinate of a hinge or slider
   kCount,
 };
 inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::kCount);

@@ -1,6 +1,7 @@
 // Metrics: numbers that say how far a trajectory is from another one. Definitions: docs/metrics.md.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -16,6 +17,8 @@ struct Comparison {
   const Trajectory& expected;
   // A planar engine that runs the projection of a spatial scenario is measured in the x-z plane only.
   bool in_plane = false;
+  // For a scenario with a threshold: where the engine's answer changes.
+  std::optional<Bracket> critical = std::nullopt;
 };
 
 struct Metric {

@@ -17,6 +17,8 @@ class Reference {
   virtual std::string_view citation() const = 0;
   // "closed_form", ...: where the truth comes from.
   virtual std::string_view kind() const = 0;
+  // How uncertainty() was obtained, in a few words.
+  virtual std::string_view bound_source() const = 0;
 };
 
 // The reference at the sample times of a run, so that a dozen metrics evaluate it once.

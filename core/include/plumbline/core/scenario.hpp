@@ -9,10 +9,15 @@
 #include <vector>
 
 #include "plumbline/core/body.hpp"
+#include "plumbline/core/certificate.hpp"
+#include "plumbline/core/force_element.hpp"
 #include "plumbline/core/gate.hpp"
 #include "plumbline/core/joints/joint.hpp"
+#include "plumbline/core/threshold.hpp"
 
 namespace plumbline {
+
+class FeatureSet;
 
 // What happens where two bodies touch. It is stated per pair: how an engine combines per-body coefficients
 // (product, maximum, square root ...) is its adapter's business.
@@ -51,6 +56,11 @@ struct Scales {
 
 using Parameters = std::vector<std::pair<std::string, double>>;  // in the order of the file
 
+// How long one is ready to wait. Every tier runs the cases of the tiers before it too; smoke takes the first of their
+// steps only, one dt a case.
+enum class Tier { kSmoke, kStandard, kFull };
+std::string_view tier_name(Tier tier);  // "smoke", "standard", "full"
+
 struct Scenario {
   std::string id;         // "family/case"
   std::string about;      // one line
@@ -68,11 +78,21 @@ struct Scenario {
   // joint, in place and in velocity. Bodies that a joint ties to each other do not collide.
   std::vector<Joint> joints;
   std::vector<ForceLaw> forces;
+  std::vector<Spring> springs;
+  std::vector<JointSpring> joint_springs;
+  std::vector<JointDrive> drives;
   std::optional<ContactMaterial> contact;  // none: bodies pass through each other
 
   std::vector<Event> events;  // in order of time
   std::vector<Gate> gates;
   double t_valid = 0;  // beyond it pointwise comparison means nothing (chaos) [s]
+  // What the reference knows of the motion: false where only invariants are known (the expected states are then the
+  // initial ones), and with times [s] where it is known at those alone.
+  bool pointwise = true;
+  std::vector<double> known_at;
+  std::optional<Threshold> threshold;  // a yes/no question instead of a motion
+  std::vector<Certificate> certificates;
+  Tier tier = Tier::kStandard;  // the first that runs this case
 
   // "particle/drag_ship" or "collision/two_sphere/e=0.5,b=0": unique among all cases of all files.
   std::string case_name() const;
@@ -93,7 +113,12 @@ void require_sound(const Scenario& scenario);
 // matters to nobody since no joint leads to them.
 ArticulatedBody articulated_body(const Scenario& scenario);
 
-// The sum of all force laws on each body at time t [s] and these states; both spans hold one entry per body.
+// Whether anything but gravity, joints and contact acts, apart from springs that `native` says the engine has itself.
+bool has_forces(const Scenario& scenario, const FeatureSet& native);
+// The sum of all force laws, springs and drives on each body at time t [s] and these states, but for the springs that
+// are native; both spans hold one entry per body.
+void evaluate_forces(const Scenario& scenario, double t, std::span<const BodyState> states, std::span<Wrench> wrenches,
+                     const FeatureSet& native);
 void evaluate_forces(const Scenario& scenario, double t, std::span<const BodyState> states, std::span<Wrench> wrenches);
 
 // Shortest decimal that reads back as the same double: 0.02, 1e-09, 0.016666666666666666.

@@ -30,9 +30,10 @@ struct PlannedRun {
 // "particle/drag_ship/v0=30/bullet-f32.matched.dt=0.02": what filters match and trajectory files are called.
 std::string run_name(const Scenario& scenario, const std::string& engine, Profile profile, double dt);
 
-// Runs of one case and dt stand together: they share the reference and are compared with each other.
+// Runs of one case and dt stand together: they share the reference and are compared with each other. Cases beyond
+// `tier` are left out; of the others smoke takes the first step only.
 std::vector<PlannedRun> plan_runs(const std::vector<CaseInput>& cases, const std::vector<EngineInfo>& engines,
-                                  const std::vector<Profile>& profiles,
+                                  const std::vector<Profile>& profiles, Tier tier,
                                   const std::function<bool(const std::string& name)>& selected);
 
 }  // namespace plumbline

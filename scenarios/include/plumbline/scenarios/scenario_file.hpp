@@ -37,6 +37,10 @@ std::vector<Case> read_scenario(std::string_view text, const std::string& file, 
 // The same, from disk.
 std::vector<Case> read_scenario_file(const std::filesystem::path& file, const Overrides& overrides = {});
 
+// The one case that these parameter values single out, without its reference, gates and certificates: what an engine is
+// asked to run. Throws ScenarioError, and std::invalid_argument when there are several cases.
+Scenario read_problem(std::string_view text, const std::string& file, const Parameters& parameters);
+
 // All scenario files of a folder (case.toml) and of the folders in it (family/case.toml), sorted by path.
 std::vector<std::filesystem::path> find_scenario_files(const std::filesystem::path& folder);
 

@@ -2,7 +2,7 @@
 //
 //   solid (frame)                                        volume                along z              across z, about com
 //   Sphere, Box: body.hpp, origin at the centre          4/3 pi r^3, a b c     solid_inertia        solid_inertia
-//   Cylinder: axis z, origin at the centre               pi r^2 h              m r^2/2              m (3 r^2 + h^2)/12
+//   Cylinder: body.hpp, axis z                           pi r^2 h              m r^2/2              m (3 r^2 + h^2)/12
 //   Capsule: cylinder of length h along z with half      pi r^2 h + 4/3 pi r^3 cylinder + 2 half spheres, see below
 //     spheres on both ends, origin at the centre
 //   Cone: base in z = 0, apex at z = h, com at h/4       pi r^2 h/3            3/10 m r^2           3/80 m (4 r^2 +
@@ -18,11 +18,6 @@
 #include "plumbline/core/mass/mass_properties.hpp"
 
 namespace plumbline {
-
-struct Cylinder {
-  double radius;  // [m]
-  double height;  // along z [m]
-};
 
 struct Capsule {
   double radius;  // [m]
