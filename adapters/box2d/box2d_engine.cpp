@@ -1,6 +1,7 @@
 // Box2D behind the door of core/engine.hpp. Its plane is the x-z plane of the scenario.
 #include <box2d/box2d.h>
 
+#include <cfloat>
 #include <cmath>
 #include <stdexcept>
 
@@ -60,6 +61,7 @@ class Box2dWorld final : public World {
     world_.SetContinuousPhysics(knobs.continuous);
     for (const Body& body : scenario.bodies) add(body, scenario.contact);
     for (const Joint& joint : scenario.joints) add(scenario, joint);
+    for (const Spring& spring : scenario.springs) add(scenario, spring);
   }
 
   void apply(std::span<const Wrench> wrenches) override {
@@ -85,7 +87,7 @@ class Box2dWorld final : public World {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const b2Body& body = *bodies_[i];
       const b2Vec2 p = body.GetWorldCenter(), v = body.GetLinearVelocity();
-      states[i] = in_space({p.x, p.y, body.GetAngle(), v.x, v.y, body.GetAngularVelocity()});
+      states[i] = in_space({p.x, p.y, body.GetAngle(), v.x, v.y, body.GetAngularVelocity()}, initial_[i]);
     }
   }
 
@@ -102,7 +104,7 @@ class Box2dWorld final : public World {
   }
 
   void add(const Body& body, const std::optional<ContactMaterial>& contact) {
-    const PlanarState state = in_plane(body.initial);
+    const PlanarState state = in_plane(initial_.emplace_back(body.initial));
     b2BodyDef def;
     def.type = body.fixed ? b2_staticBody : b2_dynamicBody;
     def.position = vec2(state.x, state.z);
@@ -116,7 +118,7 @@ class Box2dWorld final : public World {
     b2Body* created = bodies_.emplace_back(world_.CreateBody(&def));
     if (contact) add_fixture(*created, body.shape, *contact);
     if (!body.fixed) {
-      const b2MassData mass = {real(body.mass), b2Vec2(0, 0), real(body.inertia.y())};
+      const b2MassData mass = {real(body.mass), b2Vec2(0, 0), real(planar_inertia(body))};
       created->SetMassData(&mass);
     }
   }
@@ -134,6 +136,9 @@ class Box2dWorld final : public World {
     b2EdgeShape edge;
     if (const auto* sphere = std::get_if<Sphere>(&shape)) {
       circle.m_radius = real(sphere->radius);
+      def.shape = &circle;
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+      circle.m_radius = real(cylinder->radius);
       def.shape = &circle;
     } else if (const auto* box = std::get_if<Box>(&shape)) {
       polygon.SetAsBox(real(0.5 * box->size.x()), real(0.5 * box->size.z()));
@@ -156,20 +161,33 @@ class Box2dWorld final : public World {
     const PlanarJoint planar = planar_joint(scenario, joint);
     switch (joint.kind) {
       case JointKind::kBall:
-      case JointKind::kHinge:
-        tie(b2RevoluteJointDef(), joint, planar);
+      case JointKind::kHinge: {
+        b2RevoluteJointDef def;
+        def.referenceAngle = real(planar.turn);
+        if (planar.range) {
+          def.enableLimit = true;
+          def.lowerAngle = real(planar.range->low);
+          def.upperAngle = real(planar.range->high);
+        }
+        tie(def, joint.a, joint.b, planar.on_a, planar.on_b);
         break;
+      }
       case JointKind::kSlider: {
         b2PrismaticJointDef def;
         def.localAxisA = vec2(planar.axis);
         def.referenceAngle = real(planar.turn);
-        tie(def, joint, planar);
+        if (planar.range) {
+          def.enableLimit = true;
+          def.lowerTranslation = real(planar.range->low);
+          def.upperTranslation = real(planar.range->high);
+        }
+        tie(def, joint.a, joint.b, planar.on_a, planar.on_b);
         break;
       }
       case JointKind::kFixed: {
         b2WeldJointDef def;
         def.referenceAngle = real(planar.turn);
-        tie(def, joint, planar);
+        tie(def, joint.a, joint.b, planar.on_a, planar.on_b);
         break;
       }
       case JointKind::kDistance: {
@@ -180,28 +198,45 @@ class Box2dWorld final : public World {
         // No play and no stiffness: a rod, not a spring.
         b2DistanceJointDef def;
         def.length = def.minLength = def.maxLength = real(joint.length);
-        tie(def, joint, planar);
+        tie(def, joint.a, joint.b, planar.on_a, planar.on_b);
         break;
       }
     }
   }
 
+  void add(const Scenario& scenario, const Spring& spring) {
+    if (!(spring.length > double{b2_linearSlop})) {
+      throw std::invalid_argument("spring '" + spring.name + "': Box2D would make one at rest at " +
+                                  shortest(double{b2_linearSlop}) + " m of it; give it a length, or a force law");
+    }
+    const PlanarSpring planar = planar_spring(scenario, spring);
+    b2DistanceJointDef def;
+    def.length = real(spring.length);
+    def.minLength = 0;
+    def.maxLength = FLT_MAX;
+    def.stiffness = real(spring.stiffness);
+    def.damping = real(spring.damping);
+    def.collideConnected = true;
+    tie(def, spring.a, spring.b, planar.on_a, planar.on_b);
+  }
+
   // Bodies that a joint ties do not collide, unless its definition says so.
   template <typename Definition>
-  void tie(Definition def, const Joint& joint, const PlanarJoint& planar) {
-    if (joint.a == kWorld && frame_ == nullptr) {
+  void tie(Definition def, std::size_t a, std::size_t b, const PlanarVector& on_a, const PlanarVector& on_b) {
+    if (a == kWorld && frame_ == nullptr) {
       const b2BodyDef standing;
       frame_ = world_.CreateBody(&standing);
     }
-    def.bodyA = joint.a == kWorld ? frame_ : bodies_[joint.a];
-    def.bodyB = bodies_[joint.b];
-    def.localAnchorA = vec2(planar.on_a);
-    def.localAnchorB = vec2(planar.on_b);
+    def.bodyA = a == kWorld ? frame_ : bodies_[a];
+    def.bodyB = bodies_[b];
+    def.localAnchorA = vec2(on_a);
+    def.localAnchorB = vec2(on_b);
     world_.CreateJoint(&def);
   }
 
   Knobs knobs_;
   b2World world_;
+  std::vector<BodyState> initial_;
   std::vector<b2Body*> bodies_;  // owned by world_, and so is
   b2Body* frame_ = nullptr;      // the body that stands for W, if a joint asks for it
 };
@@ -217,9 +252,11 @@ class Box2dEngine final : public Engine {
     info_.dimension = 2;
     info_.scheme = "semi-implicit Euler";
     info_.features = FeatureSet::joints();
-    for (Feature feature : {Feature::kForce, Feature::kTorque, Feature::kSphereSphere, Feature::kSphereBox,
-                            Feature::kSphereHalfSpace, Feature::kBoxHalfSpace, Feature::kBoxBox, Feature::kRestitution,
-                            Feature::kFriction, Feature::kJointsAndContact}) {
+    for (Feature feature :
+         {Feature::kForce, Feature::kTorque, Feature::kSphereSphere, Feature::kSphereBox, Feature::kSphereHalfSpace,
+          Feature::kBoxHalfSpace, Feature::kBoxBox, Feature::kRestitution, Feature::kFriction,
+          Feature::kJointsAndContact, Feature::kCylinderHalfSpace, Feature::kCylinderCylinder, Feature::kCylinderOther,
+          Feature::kJointRange, Feature::kSpring}) {
       info_.features.insert(feature);
     }
     info_.settings = knob_table().rows();

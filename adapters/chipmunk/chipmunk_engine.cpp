@@ -101,6 +101,8 @@ class ChipmunkWorld final : public World {
     }
     for (const Body& body : scenario.bodies) add(body);
     for (const Joint& joint : scenario.joints) add(scenario, joint);
+    for (const Spring& spring : scenario.springs) add(scenario, spring);
+    for (const JointSpring& spring : scenario.joint_springs) add(scenario, spring);
   }
 
   void apply(std::span<const Wrench> wrenches) override {
@@ -124,15 +126,15 @@ class ChipmunkWorld final : public World {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const cpBody* body = bodies_[i].get();
       const cpVect p = cpBodyGetPosition(body), v = cpBodyGetVelocity(body);
-      states[i] = in_space({p.x, p.y, cpBodyGetAngle(body), v.x, v.y, cpBodyGetAngularVelocity(body)});
+      states[i] = in_space({p.x, p.y, cpBodyGetAngle(body), v.x, v.y, cpBodyGetAngularVelocity(body)}, initial_[i]);
     }
   }
 
  private:
   void add(const Body& body) {
-    const PlanarState state = in_plane(body.initial);
+    const PlanarState state = in_plane(initial_.emplace_back(body.initial));
     Owned<cpBody>& created =
-        bodies_.emplace_back(body.fixed ? cpBodyNewStatic() : cpBodyNew(body.mass, body.inertia.y()));
+        bodies_.emplace_back(body.fixed ? cpBodyNewStatic() : cpBodyNew(body.mass, planar_inertia(body)));
     cpBodySetPosition(created.get(), cpv(state.x, state.z));
     cpBodySetAngle(created.get(), state.angle);
     if (!body.fixed) {
@@ -145,6 +147,7 @@ class ChipmunkWorld final : public World {
 
   cpShape* make_shape(cpBody* body, const Shape& shape) const {
     if (const auto* sphere = std::get_if<Sphere>(&shape)) return cpCircleShapeNew(body, sphere->radius, cpvzero);
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return cpCircleShapeNew(body, cylinder->radius, cpvzero);
     if (const auto* box = std::get_if<Box>(&shape)) return cpBoxShapeNew(body, box->size.x(), box->size.z(), 0);
     // A slab: on a line without an inside a fast ball would come out on the far side. The normal is stated in W,
     // whatever the attitude of its body.
@@ -157,16 +160,18 @@ class ChipmunkWorld final : public World {
 
   void add(const Scenario& scenario, const Joint& joint) {
     const PlanarJoint planar = planar_joint(scenario, joint);
-    cpBody* a = joint.a == kWorld ? cpSpaceGetStaticBody(space_.get()) : bodies_[joint.a].get();
-    cpBody* b = bodies_[joint.b].get();
+    cpBody *a = body_at(joint.a), *b = body_at(joint.b);
     const cpVect on_a = vect(planar.on_a), on_b = vect(planar.on_b);
     switch (joint.kind) {
       case JointKind::kBall:
       case JointKind::kHinge:
         hold(cpPivotJointNew2(a, b, on_a, on_b));
+        if (planar.range) {
+          hold(cpRotaryLimitJointNew(a, b, planar.turn + planar.range->low, planar.turn + planar.range->high));
+        }
         break;
       case JointKind::kSlider:
-        hold(make_groove(a, b, on_a, vect(planar.axis), on_b));
+        hold(make_groove(a, b, planar));
         hold(cpGearJointNew(a, b, planar.turn, 1));
         break;
       case JointKind::kFixed:
@@ -181,15 +186,22 @@ class ChipmunkWorld final : public World {
 
   // Bodies that do not turn against each other may be pinned beside the stated points: in a groove through a's centre
   // of mass, with the pin abreast of b's; and where the inverse moments balance.
-  cpConstraint* make_groove(cpBody* a, cpBody* b, cpVect on_a, cpVect axis, cpVect on_b) const {
+  cpConstraint* make_groove(cpBody* a, cpBody* b, const PlanarJoint& planar) const {
+    cpVect on_a = vect(planar.on_a), on_b = vect(planar.on_b);
+    const cpVect axis = vect(planar.axis);
+    double start = 0;  // where along the groove the pin is at the start
     if (knobs_.anchors == Anchors::kBalanced) {
       const cpVect axis_W = cpvrotate(axis, cpBodyGetRotation(a));
       const cpVect p_AB_W = cpvsub(cpBodyGetPosition(b), cpBodyGetPosition(a));
       on_a = cpvzero;
       on_b = cpvunrotate(cpvsub(cpvproject(p_AB_W, axis_W), p_AB_W), cpBodyGetRotation(b));
+      start = cpvdot(p_AB_W, axis_W);
     }
-    const cpVect reach = cpvmult(axis, knobs_.groove_half_length);
-    return cpGrooveJointNew(a, b, cpvsub(on_a, reach), cpvadd(on_a, reach), on_b);
+    // The ends of a groove are stops.
+    const JointRange reach = planar.range ? JointRange{start + planar.range->low, start + planar.range->high}
+                                          : JointRange{-knobs_.groove_half_length, knobs_.groove_half_length};
+    return cpGrooveJointNew(a, b, cpvadd(on_a, cpvmult(axis, reach.low)), cpvadd(on_a, cpvmult(axis, reach.high)),
+                            on_b);
   }
   cpConstraint* make_weld(cpBody* a, cpBody* b, cpVect on_a, cpVect on_b) const {
     if (knobs_.anchors == Anchors::kBalanced) {
@@ -201,6 +213,35 @@ class ChipmunkWorld final : public World {
     return cpPivotJointNew2(a, b, on_a, on_b);
   }
 
+  void add(const Scenario& scenario, const Spring& spring) {
+    const PlanarSpring planar = planar_spring(scenario, spring);
+    pull(cpDampedSpringNew(body_at(spring.a), body_at(spring.b), vect(planar.on_a), vect(planar.on_b), spring.length,
+                           spring.stiffness, spring.damping));
+  }
+
+  void add(const Scenario& scenario, const JointSpring& spring) {
+    const Joint& joint = scenario.joints[spring.joint];
+    const PlanarJoint planar = planar_joint(scenario, joint);
+    cpBody *a = body_at(joint.a), *b = body_at(joint.b);
+    if (joint.kind == JointKind::kHinge) {
+      // Its angle is that of a less that of b.
+      pull(
+          cpDampedRotarySpringNew(a, b, -(planar.turn + planar.sense * spring.rest), spring.stiffness, spring.damping));
+      return;
+    }
+    // A spring has a length and a travel has a sign: the spring begins far down the axis, on which it stays.
+    const double far = knobs_.groove_half_length;
+    const cpVect begin = cpvsub(vect(planar.on_a), cpvmult(vect(planar.axis), far));
+    pull(cpDampedSpringNew(a, b, begin, vect(planar.on_b), far + spring.rest, spring.stiffness, spring.damping));
+  }
+
+  cpBody* body_at(std::size_t body) const {
+    return body == kWorld ? cpSpaceGetStaticBody(space_.get()) : bodies_[body].get();
+  }
+
+  // Bodies that a spring ties may collide.
+  void pull(cpConstraint* spring) { cpSpaceAddConstraint(space_.get(), joints_.emplace_back(spring).get()); }
+
   cpConstraint* hold(cpConstraint* constraint) {
     joints_.emplace_back(constraint);
     cpConstraintSetCollideBodies(constraint, cpFalse);
@@ -210,6 +251,7 @@ class ChipmunkWorld final : public World {
 
   Knobs knobs_;
   std::optional<ContactMaterial> contact_;
+  std::vector<BodyState> initial_;
   std::vector<Owned<cpBody>> bodies_;
   std::vector<Owned<cpShape>> shapes_;
   std::vector<Owned<cpConstraint>> joints_;
@@ -226,9 +268,11 @@ class ChipmunkEngine final : public Engine {
     info_.dimension = 2;
     info_.scheme = "explicit Euler: places move with the old velocities; contacts and joints act at the new places";
     info_.features = FeatureSet::joints();
-    for (Feature feature : {Feature::kForce, Feature::kTorque, Feature::kSphereSphere, Feature::kSphereBox,
-                            Feature::kSphereHalfSpace, Feature::kBoxHalfSpace, Feature::kBoxBox, Feature::kRestitution,
-                            Feature::kFriction, Feature::kJointsAndContact}) {
+    for (Feature feature :
+         {Feature::kForce, Feature::kTorque, Feature::kSphereSphere, Feature::kSphereBox, Feature::kSphereHalfSpace,
+          Feature::kBoxHalfSpace, Feature::kBoxBox, Feature::kRestitution, Feature::kFriction,
+          Feature::kJointsAndContact, Feature::kCylinderHalfSpace, Feature::kCylinderCylinder, Feature::kCylinderOther,
+          Feature::kJointRange, Feature::kSpring, Feature::kJointSpring}) {
       info_.features.insert(feature);
     }
     info_.settings = knob_table().rows();

@@ -17,4 +17,20 @@ BodyState in_space(const PlanarState& s) {
   return state;
 }
 
+BodyState in_space(const PlanarState& s, const BodyState& initial) {
+  BodyState state = in_space(s);
+  state.p_WB.y() = initial.p_WB.y();
+  // Of a plain turn about y nothing is left over, and no rounding shall say otherwise.
+  if (initial.q_WB.x() == 0 && initial.q_WB.z() == 0) return state;
+  const Quat turned = in_space(in_plane(initial)).q_WB;
+  state.q_WB = state.q_WB * (turned.conjugate() * initial.q_WB);
+  return state;
+}
+
+double planar_inertia(const Body& body) {
+  const Quat& q = body.initial.q_WB;
+  if (q.x() == 0 && q.z() == 0) return body.inertia.y();
+  return inertia_in_world(body, q)(1, 1);
+}
+
 }  // namespace plumbline

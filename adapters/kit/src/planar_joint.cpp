@@ -25,7 +25,17 @@ PlanarJoint planar_joint(const Scenario& scenario, const Joint& joint) {
   planar.on_b = in_planar_axes(b, joint.on_b.anchor);
   planar.axis = in_planar_axes(a, joint.on_a.axis());
   planar.turn = in_plane(b).angle - in_plane(a).angle;
+  const bool turns = joint.kind == JointKind::kHinge;
+  if (turns) planar.sense = (a.q_WB * joint.on_a.axis()).y() > 0 ? -1 : 1;
+  if (joint.range) {
+    planar.range = planar.sense > 0 ? *joint.range : JointRange{-joint.range->high, -joint.range->low};
+  }
   return planar;
+}
+
+PlanarSpring planar_spring(const Scenario& scenario, const Spring& spring) {
+  const BodyState a = initial_state_of(scenario, spring.a), b = initial_state_of(scenario, spring.b);
+  return {in_planar_axes(a, spring.on_a), in_planar_axes(b, spring.on_b)};
 }
 
 }  // namespace plumbline

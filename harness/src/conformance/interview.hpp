@@ -58,6 +58,7 @@ std::span<const Question> frame_questions();
 std::span<const Question> force_questions();
 std::span<const Question> contact_questions();
 std::span<const Question> joint_questions();
+std::span<const Question> spring_questions();
 std::span<const Question> world_questions();
 std::span<const Question> hostile_questions();
 

@@ -31,6 +31,29 @@ TEST(PlanarFrame, ComesBackFromThePlane) {
   }
 }
 
+TEST(PlanarFrame, KeepsWhatThePlaneDoesNotKnow) {
+  // A disc: its axis is y, its moments are those about its own z.
+  Body disc{"disc", Cylinder{0.5, 0.2}, false, 2, solid_inertia(Cylinder{0.5, 0.2}, 2), {}};
+  const Quat upright(std::sqrt(0.5), -std::sqrt(0.5), 0, 0);
+  disc.initial.q_WB = rotation_by(Vec3(0, 0.7, 0)) * upright;
+  disc.initial.p_WB = Vec3(1, 9, 2);
+  EXPECT_NEAR(planar_inertia(disc), 0.5 * 2 * 0.25, 1e-15);
+  PlanarState now = in_plane(disc.initial);
+  EXPECT_NEAR(now.angle, -0.7, 1e-15);
+  EXPECT_LE(geodesic_angle(in_space(now, disc.initial).q_WB, disc.initial.q_WB), 1e-15);
+  now.angle += 0.4;  // which is 0.4 less about y
+  const BodyState turned = in_space(now, disc.initial);
+  EXPECT_LE(geodesic_angle(turned.q_WB, rotation_by(Vec3(0, 0.3, 0)) * upright), 1e-15);
+  EXPECT_EQ(turned.p_WB, Vec3(1, 9, 2));
+}
+
+TEST(PlanarFrame, AddsNoRoundingToATurnInThePlane) {
+  BodyState s;
+  s.q_WB = rotation_by(Vec3(0, 0.7, 0));
+  const PlanarState now = in_plane(s);
+  EXPECT_EQ(in_space(now, s).q_WB.coeffs(), in_space(now).q_WB.coeffs());
+}
+
 TEST(PlanarFrame, DropsWhatLeavesThePlane) {
   BodyState s;
   s.p_WB = Vec3(1, 9, 2);

@@ -15,9 +15,27 @@ int buried = 0;
 // bodies are tied to each other and so do not collide.
 class HonestWorld final : public World {
  public:
-  HonestWorld(const Scenario& scenario, const Scheme& scheme) : simulator_(without_idle_contact(scenario), scheme) {}
-  void apply(std::span<const Wrench> wrenches) override { simulator_.apply(wrenches); }
-  void step(double dt) override { simulator_.step(dt); }
+  HonestWorld(const Scenario& scenario, const Scheme& scheme)
+      : springs_(scenario), simulator_(without_idle_contact(scenario), scheme) {
+    springs_.forces.clear();
+    springs_.drives.clear();
+  }
+  void apply(std::span<const Wrench> wrenches) override {
+    simulator_.apply(wrenches);  // refuses what is no wrench for every body
+    given_.assign(wrenches.begin(), wrenches.end());
+  }
+  // It offers springs of its own: their force is added to what it is given.
+  void step(double dt) override {
+    std::vector<Wrench> all(simulator_.states().size());
+    evaluate_forces(springs_, 0, simulator_.states(), all);
+    for (std::size_t i = 0; i < given_.size(); ++i) {
+      all[i].f_W += given_[i].f_W;
+      all[i].tau_W += given_[i].tau_W;
+    }
+    given_.clear();
+    simulator_.apply(all);
+    simulator_.step(dt);
+  }
   void read(std::span<BodyState> states) const override { std::ranges::copy(simulator_.states(), states.begin()); }
 
  private:
@@ -25,7 +43,9 @@ class HonestWorld final : public World {
     if (!scenario.joints.empty()) scenario.contact.reset();
     return scenario;
   }
+  Scenario springs_;
   Simulator simulator_;
+  std::vector<Wrench> given_;
 };
 
 class LyingWorld final : public World {
@@ -461,6 +481,7 @@ std::vector<Lie> every_lie() {
            if (body.initial.v_WB.norm() > 120) body.initial.v_WB *= 120 / body.initial.v_WB.norm();
          }
        }});
+  append_spring_lies(all);
   return all;
 }
 

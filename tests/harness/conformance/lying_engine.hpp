@@ -40,5 +40,6 @@ std::unique_ptr<World> build_lying(const Lie& lie, const Engine& engine, const S
 Lie honest();
 Lie honest_in_the_plane();
 const std::vector<Lie>& lies();
+void append_spring_lies(std::vector<Lie>& all);  // about force elements: spring_lies.cpp
 
 }  // namespace plumbline::testing_support

@@ -5,7 +5,7 @@
 // and torque.
 #pragma once
 
-#include "plumbline/core/state.hpp"
+#include "plumbline/core/body.hpp"
 
 namespace plumbline {
 
@@ -21,6 +21,11 @@ struct PlanarState {
 PlanarState in_plane(const BodyState& state);
 // Nothing moves along y, nor turns out of the plane.
 BodyState in_space(const PlanarState& state);
+// The same for a body that stood beside the plane, or was turned before it began to turn in it: a cylinder whose axis
+// is y, a ball that lies anyhow. What the plane does not know of it stays as it was.
+BodyState in_space(const PlanarState& state, const BodyState& initial);
+// Moment of inertia about the y axis of W [kg m^2], which no motion in the plane changes.
+double planar_inertia(const Body& body);
 // The engine's torque [N m] of a torque in W; of none +0, which is what nobody's torque is in an engine.
 inline double planar_torque(const Vec3& tau_W) { return 0.0 - tau_W.y(); }
 
