@@ -65,11 +65,12 @@ class DartEngine final : public Engine {
     info_.library = "DART";
     info_.version = DART_VERSION;  // the header's: the library cannot tell
     info_.scheme = "semi-implicit Euler in joint coordinates";
-    info_.features = {Feature::kSpatial,      Feature::kForce,      Feature::kTorque,
-                      Feature::kSphereSphere, Feature::kSphereBox,  Feature::kSphereHalfSpace,
-                      Feature::kBoxHalfSpace, Feature::kBoxBox,     Feature::kRestitution,
-                      Feature::kFriction,     Feature::kBallJoint,  Feature::kHinge,
-                      Feature::kSlider,       Feature::kFixedJoint, Feature::kJointsAndContact};
+    info_.features = {
+        Feature::kSpatial,          Feature::kForce,           Feature::kTorque,           Feature::kSphereSphere,
+        Feature::kSphereBox,        Feature::kSphereHalfSpace, Feature::kBoxHalfSpace,     Feature::kBoxBox,
+        Feature::kRestitution,      Feature::kFriction,        Feature::kBallJoint,        Feature::kHinge,
+        Feature::kSlider,           Feature::kFixedJoint,      Feature::kJointsAndContact, Feature::kCylinderHalfSpace,
+        Feature::kCylinderCylinder, Feature::kCylinderOther,   Feature::kJointRange,       Feature::kJointSpring};
     // Dantzig's solver gives wrong answers to what a hinge that closes a loop says twice, without noticing.
     if (solver == LcpSolver::kPgs) info_.features.insert(Feature::kJointLoop);
     info_.settings = knobs_.rows();

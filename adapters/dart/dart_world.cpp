@@ -15,6 +15,7 @@
 #include <dart/dynamics/BallJoint.hpp>
 #include <dart/dynamics/BodyNode.hpp>
 #include <dart/dynamics/BoxShape.hpp>
+#include <dart/dynamics/CylinderShape.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
 #include <dart/dynamics/PlaneShape.hpp>
 #include <dart/dynamics/PrismaticJoint.hpp>
@@ -98,6 +99,7 @@ class DartWorld final : public World {
       if (scenario.bodies[i].fixed) fix(i);
     }
     const JointTree tree = joint_tree(scenario);
+    require_coordinates(scenario, tree);
     for (const TreeLink& link : tree.links) hang(link);
     // Only now that they have their shapes: those that come later are found in an order that depends on addresses in
     // memory, and so would the results.
@@ -202,10 +204,12 @@ class DartWorld final : public World {
         const auto joint = attach(std::type_identity<dd::RevoluteJoint>());
         joint->setAxis(j.on_b.axis());
         joint->setVelocity(0, initial_rate(scenario_, j));
+        act_on_coordinate(*joint, link);
       } else if (j.kind == JointKind::kSlider) {
         const auto joint = attach(std::type_identity<dd::PrismaticJoint>());
         joint->setAxis(j.on_b.axis());
         joint->setVelocity(0, initial_rate(scenario_, j));
+        act_on_coordinate(*joint, link);
       } else if (j.kind == JointKind::kBall) {
         attach(std::type_identity<dd::BallJoint>())->setVelocities(initial_relative_rotation(scenario_, j));
       } else {
@@ -216,6 +220,19 @@ class DartWorld final : public World {
     const Eigen::Matrix3d I_BBcm_B = body.inertia.asDiagonal();
     nodes_[link.body]->setInertia(dd::Inertia(body.mass, Vec3::Zero(), I_BBcm_B));
     give_shape(link.body);
+  }
+
+  void act_on_coordinate(dd::Joint& joint, const TreeLink& link) const {
+    if (const auto& range = link.joint->range) {
+      joint.setPositionLowerLimit(0, range->low);
+      joint.setPositionUpperLimit(0, range->high);
+      joint.setLimitEnforcement(true);
+    }
+    if (const auto spring = spring_on(scenario_, link)) {
+      joint.setSpringStiffness(0, spring->stiffness);
+      joint.setDampingCoefficient(0, spring->damping);
+      joint.setRestPosition(0, spring->rest);
+    }
   }
 
   void float_free(std::size_t i) {
@@ -264,6 +281,8 @@ class DartWorld final : public World {
       shape = std::make_shared<dd::PlaneShape>(half->normal, half->normal.dot(body.initial.p_WB));
     } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
       shape = std::make_shared<dd::SphereShape>(sphere->radius);
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&body.shape)) {
+      shape = std::make_shared<dd::CylinderShape>(cylinder->radius, cylinder->height);
     } else {
       shape = std::make_shared<dd::BoxShape>(std::get<Box>(body.shape).size);
     }

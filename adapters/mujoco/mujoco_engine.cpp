@@ -32,7 +32,8 @@ const KnobTable<Knobs>& knob_table() {
       KnobTable<Knobs>()
           .choose(&Knobs::response, "response", {{"solref", Response::kSolref}, {"one_step", Response::kOneStep}},
                   "solref", "one_step",
-                  "what contacts and closed loops ask for: solref, the spring and damper of MuJoCo's parameter of that "
+                  "what contacts, stops of joints and closed loops ask for: solref, the spring and damper of MuJoCo's "
+                  "parameter of that "
                   "name, the same for every material; one_step, the velocity that restitution states at the end of the "
                   "step, also along the surface where friction would hold: a contact has one damping")
           .add(&Knobs::time_constant, "time_constant", 0.02, 0.02, "s", "of solref; MuJoCo takes 2 dt at least")
@@ -182,6 +183,10 @@ class MujocoWorld final : public World {
     const double b = sliding_ ? std::min(knobs_.sliding_damping, damping_ / dt) : damping_ / dt;
     const double k = recovers_ ? (1 - restitution_) * std::min(b / knobs_.recovery_time, b * b / 4) : 0;
     set(model_->pair_solref, model_->pair_solimp, model_->npair, k, b);
+    // The stops of joints are plastic, whatever the contacts are.
+    const double stop = (model_->opt.integrator == mjINT_RK4 ? 2 : 1) / dt;
+    set(model_->jnt_solref, model_->jnt_solimp, model_->njnt,
+        recovers_ ? std::min(stop / knobs_.recovery_time, stop * stop / 4) : 0, stop);
     set(model_->eq_solref, model_->eq_solimp, model_->neq, knobs_.drift_share / (dt * dt), 1 / dt);
     model_->opt.timestep = dt;
     prepared_ = true;
@@ -213,7 +218,8 @@ class MujocoEngine final : public Engine {
     info_.features = FeatureSet::joints();
     for (Feature f : {Feature::kSpatial, Feature::kForce, Feature::kTorque, Feature::kSphereSphere, Feature::kSphereBox,
                       Feature::kSphereHalfSpace, Feature::kBoxHalfSpace, Feature::kBoxBox, Feature::kFriction,
-                      Feature::kJointsAndContact}) {
+                      Feature::kJointsAndContact, Feature::kCylinderHalfSpace, Feature::kCylinderCylinder,
+                      Feature::kCylinderOther, Feature::kJointRange, Feature::kSpring, Feature::kJointSpring}) {
       info_.features.insert(f);
     }
     if (integrator != mjINT_RK4) info_.features.insert(Feature::kRestitution);

@@ -34,6 +34,8 @@ std::string geom(const Body& body, std::size_t i) {
   std::string text = "<geom contype=\"0\" conaffinity=\"0\"" + attribute("name", mujoco_name(i));
   if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
     text += " type=\"sphere\"" + attribute("size", {sphere->radius});
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&body.shape)) {
+    text += " type=\"cylinder\"" + attribute("size", {cylinder->radius, 0.5 * cylinder->height});
   } else if (const auto* box = std::get_if<Box>(&body.shape)) {
     text += " type=\"box\"" + attribute("size", Vec3(0.5 * box->size));
   } else {
@@ -44,7 +46,20 @@ std::string geom(const Body& body, std::size_t i) {
   return text + "/>";
 }
 
-std::string joint(const TreeLink& link) {
+// What bounds and pulls the coordinate of a hinge or slider.
+std::string on_coordinate(const Scenario& scenario, const TreeLink& link) {
+  std::string text;
+  if (const auto& range = link.joint->range) {
+    text += " limited=\"true\"" + attribute("range", {range->low, range->high});
+  }
+  if (const auto spring = spring_on(scenario, link)) {
+    text += attribute("stiffness", {spring->stiffness}) + attribute("damping", {spring->damping}) +
+            attribute("springref", {spring->rest});
+  }
+  return text;
+}
+
+std::string joint(const Scenario& scenario, const TreeLink& link) {
   if (!link.joint) return "<freejoint" + attribute("name", mujoco_name(link.body)) + "/>";
   const char* type = nullptr;
   switch (link.joint->kind) {
@@ -62,11 +77,18 @@ std::string joint(const TreeLink& link) {
       return "";
   }
   return "<joint" + attribute("name", mujoco_name(link.body)) + attribute("type", type) +
-         attribute("pos", link.joint->on_b.anchor) + attribute("axis", link.joint->on_b.axis()) + "/>";
+         attribute("pos", link.joint->on_b.anchor) + attribute("axis", link.joint->on_b.axis()) +
+         on_coordinate(scenario, link) + "/>";
 }
 
-std::string site(std::size_t joint, char end, const Vec3& anchor) {
-  return "<site" + attribute("name", "s" + std::to_string(joint) + end) + attribute("pos", anchor) + "/>";
+// An end of rod "s0", spring "p0", ...
+std::string site(const std::string& line, char end, const Vec3& anchor) {
+  return "<site" + attribute("name", line + end) + attribute("pos", anchor) + "/>";
+}
+
+std::string tendon(const std::string& line, const std::string& attributes) {
+  return "<spatial" + attribute("name", line) + attributes + "><site" + attribute("site", line + "a") + "/><site" +
+         attribute("site", line + "b") + "/></spatial>";
 }
 
 class ModelText {
@@ -76,6 +98,13 @@ class ModelText {
   std::string write() {
     const std::string bodies = children_of(kWorld);
     const std::string pairs = contact_pairs(), ties = left_over();
+    for (std::size_t k = 0; k < scenario_.springs.size(); ++k) {
+      const Spring& s = scenario_.springs[k];
+      tendons_ +=
+          tendon("p" + std::to_string(k), attribute("stiffness", {s.stiffness}) + attribute("damping", {s.damping}) +
+                                              attribute("springlength", {s.length}));
+    }
+    if (!tendons_.empty()) tendons_ = "<tendon>" + tendons_ + "</tendon>";
     return "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\" balanceinertia=\"false\" boundmass=\"0\" "
            "boundinertia=\"0\"/>" +
            size() + "<worldbody>" + bodies + "</worldbody><contact>" + pairs + "</contact>" + tendons_ + ties +
@@ -83,14 +112,19 @@ class ModelText {
   }
 
  private:
-  // What stands on that body: its ends of rods, and every body that hangs from it.
+  // What stands on that body: its ends of rods and springs, and every body that hangs from it.
   std::string children_of(std::size_t parent) {
     std::string text;
     for (std::size_t k : tree_.left_over) {
       const Joint& j = scenario_.joints[k];
       if (j.kind != JointKind::kDistance) continue;
-      if (j.a == parent) text += site(k, 'a', j.on_a.anchor);
-      if (j.b == parent) text += site(k, 'b', j.on_b.anchor);
+      if (j.a == parent) text += site("s" + std::to_string(k), 'a', j.on_a.anchor);
+      if (j.b == parent) text += site("s" + std::to_string(k), 'b', j.on_b.anchor);
+    }
+    for (std::size_t k = 0; k < scenario_.springs.size(); ++k) {
+      const Spring& s = scenario_.springs[k];
+      if (s.a == parent) text += site("p" + std::to_string(k), 'a', s.on_a);
+      if (s.b == parent) text += site("p" + std::to_string(k), 'b', s.on_b);
     }
     if (parent == kWorld) {
       for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) {
@@ -104,7 +138,7 @@ class ModelText {
       text += "<body" + attribute("name", mujoco_name(link.body)) +
               attribute("pos", from.q_WB.conjugate() * (to.p_WB - from.p_WB)) +
               attribute("quat", from.q_WB.conjugate() * to.q_WB) + "><inertial pos=\"0 0 0\"" +
-              attribute("mass", {body.mass}) + attribute("diaginertia", body.inertia) + "/>" + joint(link) +
+              attribute("mass", {body.mass}) + attribute("diaginertia", body.inertia) + "/>" + joint(scenario_, link) +
               geom(body, link.body) + children_of(link.body) + "</body>";
     }
     return text;
@@ -147,8 +181,7 @@ class ModelText {
           text += "<weld" + bodies + "/>";
           break;
         case JointKind::kDistance:
-          tendons_ += "<spatial" + attribute("name", name) + "><site" + attribute("site", name + "a") + "/><site" +
-                      attribute("site", name + "b") + "/></spatial>";
+          tendons_ += tendon(name, "");
           text += "<tendon" + attribute("tendon1", name) + "/>";
           break;
         case JointKind::kSlider:
@@ -157,7 +190,6 @@ class ModelText {
                                       "other joints");
       }
     }
-    if (!tendons_.empty()) tendons_ = "<tendon>" + tendons_ + "</tendon>";
     return "<equality>" + text + "</equality>";
   }
 
@@ -180,6 +212,7 @@ class ModelText {
 std::string mujoco_name(std::size_t body) { return "b" + std::to_string(body); }
 
 MujocoModel mujoco_model(const Scenario& scenario, const JointTree& tree) {
+  require_coordinates(scenario, tree);
   const std::string text = ModelText(scenario, tree).write();
   const auto files = std::make_unique<mjVFS>();  // megabytes: not on the stack
   mj_defaultVFS(files.get());

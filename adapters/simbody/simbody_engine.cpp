@@ -20,7 +20,7 @@ class SimbodyRow final : public Engine {
     for (const Feature feature :
          {Feature::kSpatial, Feature::kForce, Feature::kTorque, Feature::kSphereSphere, Feature::kSphereHalfSpace,
           Feature::kBoxHalfSpace, Feature::kFriction, Feature::kBallJoint, Feature::kHinge, Feature::kSlider,
-          Feature::kFixedJoint, Feature::kJointsAndContact}) {
+          Feature::kFixedJoint, Feature::kJointsAndContact, Feature::kSpring, Feature::kJointSpring}) {
       info_.features.insert(feature);
     }
     info_.settings = std::move(settings);

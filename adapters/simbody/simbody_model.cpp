@@ -71,7 +71,9 @@ SimbodyModel::SimbodyModel(const Scenario& scenario)
     fixed_[i].p_WB = scenario.bodies[i].initial.p_WB;
     fixed_[i].q_WB = scenario.bodies[i].initial.q_WB;
   }
-  for (const TreeLink& link : joint_tree(scenario).links) {
+  const JointTree tree = joint_tree(scenario);
+  require_coordinates(scenario, tree);
+  for (const TreeLink& link : tree.links) {
     const Body& body = scenario.bodies[link.body];
     const SimTK::Body::Rigid rigid(
         SimTK::MassProperties(body.mass, SimTK::Vec3(0), SimTK::Inertia(simbody_vector(body.inertia))));
@@ -81,6 +83,18 @@ SimbodyModel::SimbodyModel(const Scenario& scenario)
     } else {
       bodies_[link.body] = SimTK::MobilizedBody::Free(matter_.updGround(), rigid);
     }
+    if (const auto spring = spring_on(scenario, link)) {
+      const SimTK::MobilizedBody& mobod = this->body(link.body);
+      SimTK::Force::MobilityLinearSpring(forces_, mobod, SimTK::MobilizerQIndex(0), spring->stiffness, spring->rest);
+      SimTK::Force::MobilityLinearDamper(forces_, mobod, SimTK::MobilizerUIndex(0), spring->damping);
+    }
+  }
+  for (const Spring& spring : scenario.springs) {
+    const SimTK::MobilizedBody& a = spring.a == kWorld ? matter_.updGround() : this->body(spring.a);
+    const SimTK::MobilizedBody& b = this->body(spring.b);
+    const SimTK::Vec3 on_a = simbody_vector(spring.on_a), on_b = simbody_vector(spring.on_b);
+    SimTK::Force::TwoPointLinearSpring(forces_, a, on_a, b, on_b, spring.stiffness, spring.length);
+    SimTK::Force::TwoPointLinearDamper(forces_, a, on_a, b, on_b, spring.damping);
   }
 }
 

@@ -1,5 +1,8 @@
 #include "plumbline/adapters/joint_tree.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "plumbline/core/joints/joint_equations.hpp"
 
 namespace plumbline {
@@ -57,6 +60,27 @@ class TreeBuilder {
 }  // namespace
 
 JointTree joint_tree(const Scenario& scenario) { return TreeBuilder(scenario).build(); }
+
+std::optional<JointSpring> spring_on(const Scenario& scenario, const TreeLink& link) {
+  if (!link.joint) return std::nullopt;
+  for (const JointSpring& stated : scenario.joint_springs) {
+    if (stated.joint != link.stated) continue;
+    JointSpring spring = stated;
+    if (scenario.joints[link.stated].b != link.body) spring.rest = -spring.rest;  // turned round
+    return spring;
+  }
+  return std::nullopt;
+}
+
+void require_coordinates(const Scenario& scenario, const JointTree& tree) {
+  for (const std::size_t k : tree.left_over) {
+    const bool sprung = std::any_of(scenario.joint_springs.begin(), scenario.joint_springs.end(),
+                                    [&](const JointSpring& spring) { return spring.joint == k; });
+    if (!sprung && !scenario.joints[k].range) continue;
+    throw std::invalid_argument("joint '" + scenario.joints[k].name + "' closes a loop and has a range or a spring, " +
+                                "for which this engine has no coordinate: state it before the loop's other joints");
+  }
+}
 
 BodyState initial_state_of(const Scenario& scenario, std::size_t body) {
   return body == kWorld ? BodyState{} : scenario.bodies[body].initial;

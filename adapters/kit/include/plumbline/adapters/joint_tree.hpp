@@ -27,6 +27,13 @@ struct JointTree {
 
 JointTree joint_tree(const Scenario& scenario);
 
+// The spring on the joint by which that body hangs, in the coordinate of link.joint; none if there is none. (The range
+// of link.joint is in that coordinate already.)
+std::optional<JointSpring> spring_on(const Scenario& scenario, const TreeLink& link);
+// Throws std::invalid_argument, naming the joint and the way out, where one that is left over has a range or a spring:
+// in joint coordinates there is nothing for them to act on.
+void require_coordinates(const Scenario& scenario, const JointTree& tree);
+
 // The rate of the joint's coordinate in the initial states: of a hinge w_B - w_A along its axis [rad/s], of a slider
 // the speed of B's anchor along it [m/s].
 double initial_rate(const Scenario& scenario, const Joint& joint);
