@@ -100,6 +100,10 @@ class RunVerb {
       for (CaseInput& c : scenarios_.cases) c.scenario.steps = steps;
       for (ScenarioSummary& s : scenarios_.summaries) s.steps = steps;
     }
+    if (tier() == Tier::kSmoke) {
+      for (CaseInput& c : scenarios_.cases) c.scenario.steps.resize(1);
+      for (ScenarioSummary& s : scenarios_.summaries) s.steps.resize(1);
+    }
     plan_ = plan_of(scenarios_.cases);
     report_.tool_version = PLUMBLINE_VERSION;
     report_.environment = describe_environment();

@@ -22,6 +22,9 @@ const json& results() {
   return document;
 }
 
+// Whether every step was run, so that orders can be fitted and a certain step is there.
+bool has_all_steps() { return std::string(PLUMBLINE_TIER) != "smoke"; }
+
 std::map<std::string, json> engines() {
   std::map<std::string, json> by_name;
   for (const json& engine : results().at("engines")) by_name[engine.at("name")] = engine;
@@ -67,6 +70,7 @@ TEST(Catalogue, EveryUnsupportedRunNamesWhatIsMissing) {
 // g t dt/2 with g = 9.8, t = 2 s, dt = 0.02 s. Double precision adds some 100 roundings of numbers up to 16; in
 // single precision the same sum is bounded by 100 * 2^-24 * 16 = 1e-4.
 TEST(Catalogue, SemiImplicitEnginesDropTheBoxByTheirSchemesError) {
+  if (!has_all_steps()) GTEST_SKIP() << "the short form has one step only";
   const auto rows = engines();
   int checked = 0;
   for (const json& run : results().at("runs")) {
@@ -84,6 +88,7 @@ TEST(Catalogue, SemiImplicitEnginesDropTheBoxByTheirSchemesError) {
 }
 
 TEST(Catalogue, FirstOrderSchemesConvergeWithFirstOrderOnTheShip) {
+  if (!has_all_steps()) GTEST_SKIP() << "the short form has one step only";
   const auto rows = engines();
   int checked = 0;
   for (const json& c : results().at("convergence")) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kinetic_scenes.hpp"
 #include "plumbline/core/kinetics/simulator.hpp"
 
@@ -38,6 +40,31 @@ TEST(Needs, FollowFromShapesAndContactRules) {
   EXPECT_EQ(needs(s), FeatureSet({Feature::kSphereSphere, Feature::kSphereHalfSpace}));
   s.contact.reset();
   EXPECT_TRUE(needs(s).empty());
+}
+
+TEST(Needs, FollowFromCylinders) {
+  const Quat lying(std::sqrt(0.5), -std::sqrt(0.5), 0, 0);  // its axis along y
+  Body log = solid("log", Cylinder{0.2, 1}, 1, Vec3(0, 0, 2), Vec3::Zero());
+  EXPECT_TRUE(needs(free_flight(log, Vec3(0, 0, -kG), 1)).contains(Feature::kSpatial)) << "its axis is z";
+  log.initial.q_WB = rotation_by(Vec3(0, 0.3, 0)) * lying;
+  Scenario s = on_ground(log, 0, 0, 1);
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kCylinderHalfSpace}));
+  s.bodies.push_back(log);
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kCylinderHalfSpace, Feature::kCylinderCylinder}));
+  s.bodies[1] = ball("ball", 1, 1, Vec3(3, 0, 3), Vec3::Zero());
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kCylinderHalfSpace, Feature::kSphereHalfSpace, Feature::kCylinderOther}));
+}
+
+TEST(Needs, FollowFromSprings) {
+  Scenario s = free_flight(ball("ball", 1, 1, Vec3(1, 0, 0), Vec3::Zero()), Vec3::Zero(), 1);
+  s.springs = {{"spring", kWorld, 0, Vec3::Zero(), Vec3::Zero(), 1, 0, 1}};
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kForce})) << "who has no springs is given their force";
+  s.springs[0].on_b = Vec3(0.5, 0, 0);
+  EXPECT_EQ(needs(s), FeatureSet({Feature::kForce, Feature::kTorque}));
+  s.springs[0].on_a = Vec3(0, 1, 0);
+  EXPECT_NE(planar_view(s).reason.find("leads out of the plane"), std::string::npos) << planar_view(s).reason;
+  s.springs[0].on_b = Vec3(0.5, 1, 0);
+  EXPECT_NE(planar_view(s).reason.find("beside the plane"), std::string::npos) << planar_view(s).reason;
 }
 
 TEST(Needs, DoNotAskForContactOfBodiesThatNeverMove) {

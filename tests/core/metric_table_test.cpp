@@ -91,6 +91,45 @@ TEST_F(MetricTable, EachMetricHasItsHandComputedValue) {
   }
 }
 
+TEST_F(MetricTable, PointwiseMetricsLookNoFurtherThanTheTimeOfValidity) {
+  scenario.t_valid = 1;
+  EXPECT_EQ(measure("position.max"), 5);
+  EXPECT_EQ(measure("position.final"), 5);
+  EXPECT_NEAR(measure("energy.final"), 21.125 / 8, 1e-14) << "what is conserved stays so";
+  scenario.t_valid = 0.5;
+  EXPECT_EQ(measure("position.max"), 0);
+}
+
+TEST_F(MetricTable, ATableIsComparedAtItsOwnTimesOnly) {
+  scenario.known_at = {2};
+  EXPECT_EQ(measure("position.max"), 1);
+  EXPECT_EQ(measure("position.rms"), 1);
+  EXPECT_FALSE(find_metric("energy.max")->applies(scenario));
+  scenario.known_at = {0.5};  // at no sample: there is nothing to say
+  EXPECT_TRUE(std::isnan(measure("position.final")));
+}
+
+TEST_F(MetricTable, InvariantsSayNothingAboutPlaces) {
+  scenario.pointwise = false;
+  EXPECT_FALSE(find_metric("position.max")->applies(scenario));
+  EXPECT_FALSE(find_metric("angular_velocity.rms")->applies(scenario));
+  EXPECT_TRUE(find_metric("energy.max")->applies(scenario));
+  EXPECT_TRUE(find_metric("angular_momentum.max")->applies(scenario));
+}
+
+TEST_F(MetricTable, AThresholdIsMeasuredByItsBracketAndNothingElse) {
+  scenario.threshold.emplace();
+  scenario.threshold->exact = 20;
+  for (const Metric& metric : metrics()) {
+    EXPECT_EQ(metric.applies(scenario), metric.name.starts_with("threshold.")) << metric.name;
+  }
+  Comparison c = comparison();
+  EXPECT_TRUE(std::isnan(find_metric("threshold.error")->measure(c))) << "no search, no value";
+  c.critical = Bracket{20.5, 21.5};
+  EXPECT_EQ(find_metric("threshold.value")->measure(c), 21);
+  EXPECT_EQ(find_metric("threshold.error")->measure(c), 1);
+}
+
 TEST_F(MetricTable, JointGapIsHowFarTheAnchorsArePartedAtMost) {
   EXPECT_EQ(measure("joint_gap.max"), 4);  // of the gap (3, 0, -4) the largest component along an axis of W
   scenario.joints.clear();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -85,7 +86,8 @@ struct Scenario {
 
   std::vector<Event> events;  // in order of time
   std::vector<Gate> gates;
-  double t_valid = 0;  // beyond it pointwise comparison means nothing (chaos) [s]
+  // Beyond it pointwise comparison means nothing (chaos) [s].
+  double t_valid = std::numeric_limits<double>::infinity();
   // What the reference knows of the motion: false where only invariants are known (the expected states are then the
   // initial ones), and with times [s] where it is known at those alone.
   bool pointwise = true;
