@@ -8,6 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -15,13 +19,6 @@
 
 #include "known_motions.hpp"
 #include "plumbline/core/integration/dormand_prince.hpp"
-
-#ifdef PLUMBLINE_HAVE_ODEINT
-#include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
-#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
-#endif
 
 namespace {
 
@@ -117,7 +114,6 @@ struct Ours {
   }
 };
 
-#ifdef PLUMBLINE_HAVE_ODEINT
 template <class Problem>
 struct Theirs {
   static typename Problem::State solve(double tolerance) {
@@ -130,7 +126,6 @@ struct Theirs {
     return y;
   }
 };
-#endif
 
 // The loosest tolerance that ends within kEndError; 0 when none does.
 template <class Problem, template <class> class Solver>
@@ -177,22 +172,16 @@ class Contestant {
 template <class Problem>
 void solve_to_1e_12(benchmark::State& state) {
   Contestant<Problem, Ours> ours;
-#ifdef PLUMBLINE_HAVE_ODEINT
   Contestant<Problem, Theirs> theirs;
   if (!theirs.ready()) return state.SkipWithError("odeint does not reach 1e-12");
-#endif
   if (!ours.ready()) return state.SkipWithError("ours does not reach 1e-12");
   for (auto _ : state) {
     state.SetIterationTime(ours.race());
-#ifdef PLUMBLINE_HAVE_ODEINT
     theirs.race();
-#endif
   }
   ours.report(state, "ours");
-#ifdef PLUMBLINE_HAVE_ODEINT
   theirs.report(state, "odeint");
   state.counters["ratio"] = ours.median() / theirs.median();
-#endif
 }
 
 BENCHMARK_TEMPLATE(solve_to_1e_12, Top)->UseManualTime()->Unit(benchmark::kMicrosecond);

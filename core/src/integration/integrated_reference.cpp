@@ -1,54 +1,40 @@
 #include "plumbline/core/integration/integrated_reference.hpp"
 
-#include <stdexcept>
-
-#include "plumbline/core/integration/body_equations.hpp"
-#include "plumbline/core/integration/dormand_prince.hpp"
-#include "plumbline/core/kinetics/force_following.hpp"
+#include "gauss_collocation.hpp"
 
 namespace plumbline {
-namespace {
-
-constexpr double kTolerance = 1e-15;
-
-}  // namespace
 
 struct IntegratedReference::Integration {
-  explicit Integration(const Scenario& scenario)
-      : field(acceleration_field(scenario)),
-        equations(field, scenario.bodies.size()),
-        solver({.relative = kTolerance, .absolute = kTolerance}) {
-    for (const Body& body : scenario.bodies) states.push_back(body.initial);
-    start = BodyEquations::pack(states);
-    solver.start(0, start);
+  explicit Integration(const Scenario& scenario) : motion(scenario), states(scenario.bodies.size()) {
+    extended::Column start_x, start_u;
+    motion.start(start_x, start_u);
+    motion.read(start_x, start_u, states);
+    method = std::make_unique<extended::GaussCollocation>(motion, std::move(start_x), std::move(start_u),
+                                                          static_cast<extended::Real>(scenario.duration));
   }
 
-  void go_to(double t) {
-    if (t < solver.time()) solver.start(0, start);
-    if (t > solver.time()) solver.advance_to(equations, t);
-    BodyEquations::unpack(solver.state(), states);
+  void go_to(double new_t) {
+    method->read(static_cast<extended::Real>(new_t), x, u);
+    motion.read(x, u, states);
+    t = new_t;
   }
 
-  AccelerationField field;
-  BodyEquations equations;
-  DormandPrince<Eigen::VectorXd> solver;
-  Eigen::VectorXd start;
-  std::vector<BodyState> states;
+  extended::Motion motion;
+  std::unique_ptr<extended::GaussCollocation> method;
+  extended::Column x, u;
+  double t = 0;
+  std::vector<BodyState> states;  // at t
 };
 
 IntegratedReference::IntegratedReference(const Scenario& scenario, std::string citation, double uncertainty)
-    : citation_(std::move(citation)), uncertainty_(uncertainty) {
-  if (scenario.contact) throw std::invalid_argument("its motion is not smooth: remove [contact]");
-  for (const Joint& joint : scenario.joints) {
-    if (joint.range) throw std::invalid_argument("its motion is not smooth: '" + joint.name + "' has a range");
-  }
-  integration_ = std::make_unique<Integration>(scenario);
-}
+    : integration_(std::make_unique<Integration>(scenario)),
+      citation_(std::move(citation)),
+      uncertainty_(uncertainty) {}
 
 IntegratedReference::~IntegratedReference() = default;
 
 BodyState IntegratedReference::at(std::size_t body, double t) const {
-  if (t != integration_->solver.time()) integration_->go_to(t);
+  if (t != integration_->t) integration_->go_to(t);
   return integration_->states[body];
 }
 

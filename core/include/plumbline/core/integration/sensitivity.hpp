@@ -26,8 +26,8 @@ inline constexpr double kGrowthOfValidity = 1e5;
 // only tells that much. Throws std::invalid_argument for a scenario that neither solves.
 std::vector<double> error_growth(const Scenario& scenario, std::span<const double> times);
 
-// The first time [s] at which growth exceeds kGrowthOfValidity, to a thousandth of the duration, or the duration: what a
-// scenario file states as `t_valid`. Does not look at what the scenario states.
+// The first time [s] at which growth exceeds kGrowthOfValidity, to a thousandth of the duration, or the duration: what
+// a scenario file states as `t_valid`. Does not look at what the scenario states.
 double time_of_validity(const Scenario& scenario);
 
 }  // namespace plumbline
