@@ -14,7 +14,7 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 
 // Of a step. Errors add up over thousands of steps, and 1e-14 is asked of their sum.
-constexpr Real kTolerance = 1e-17L;
+constexpr Real kTolerance = 3e-18L;
 
 }  // namespace
 

@@ -75,6 +75,10 @@ Rule make_rule() {
   return rule;
 }
 
+Real off(const Column& a, const Slice& b, const Column& scale) {
+  return (a - b).cwiseQuotient(scale).cwiseAbs().maxCoeff();
+}
+
 const Rule& rule() {
   static const Rule kRule = make_rule();
   return kRule;
@@ -97,7 +101,8 @@ GaussCollocation::GaussCollocation(Motion& motion, Column x, Column u, Real stop
       du_(u_stage_),
       dx_coefficients_(x_stage_),
       du_coefficients_(u_stage_),
-      newest_(u_.size()) {}
+      newest_(u_.size()),
+      newest_rate_(x_.size()) {}
 
 void GaussCollocation::set_scales() {
   const Scales& scales = motion_.scenario().scales;
@@ -154,9 +159,8 @@ GaussCollocation::Attempt GaussCollocation::attempt(Real h) {
     for (int i = 0; i < kStages; ++i) {
       motion_.accelerations(t_ + h * rule().node[static_cast<std::size_t>(i)], x_stage_.col(i), u_stage_.col(i),
                             newest_);
-      const Real off = (newest_ - du_.col(i)).cwiseQuotient(u_scale_).cwiseAbs().maxCoeff();
-      if (!std::isfinite(off) || !newest_.allFinite()) return result;
-      change = std::max(change, h * off);
+      if (!newest_.allFinite()) return result;
+      change = std::max(change, h * off(newest_, du_.col(i), u_scale_));
       du_.col(i) = newest_;
     }
     evaluations_ += kStages;
@@ -164,7 +168,11 @@ GaussCollocation::Attempt GaussCollocation::attempt(Real h) {
     u_stage_.colwise() += u_;
     // Attitudes feed on themselves: a second sweep is cheap beside the accelerations.
     for (int sweep = 0; sweep < 2; ++sweep) {
-      for (int i = 0; i < kStages; ++i) motion_.rates(x_stage_.col(i), u_stage_.col(i), dx_.col(i));
+      for (int i = 0; i < kStages; ++i) {
+        motion_.rates(x_stage_.col(i), u_stage_.col(i), newest_rate_);
+        change = std::max(change, h * off(newest_rate_, dx_.col(i), x_scale_));
+        dx_.col(i) = newest_rate_;
+      }
       x_stage_.noalias() = dx_ * A;
       x_stage_.colwise() += x_;
     }

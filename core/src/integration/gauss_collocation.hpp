@@ -62,7 +62,7 @@ class GaussCollocation {
   Column x_, u_, start_x_, start_u_;
   Column x_scale_, u_scale_;
   Stages x_stage_, u_stage_, dx_, du_, dx_coefficients_, du_coefficients_;
-  Column newest_;
+  Column newest_, newest_rate_;
   std::vector<Step> kept_;
   std::size_t evaluations_ = 0, steps_ = 0;
 };

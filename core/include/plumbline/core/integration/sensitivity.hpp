@@ -22,7 +22,7 @@ namespace plumbline {
 inline constexpr double kGrowthOfValidity = 1e5;
 
 // growth at those times [s], which must not fall. Smooth scenarios by integration; ones with contact by the
-// event-driven simulator, as far as it can (event_reference.hpp). Beyond 1e8 the distances are no longer small, and it
+// event-driven simulator, as far as it can (event_reference.hpp). Beyond 1e7 the distances are no longer small, and it
 // only tells that much. Throws std::invalid_argument for a scenario that neither solves.
 std::vector<double> error_growth(const Scenario& scenario, std::span<const double> times);
 
