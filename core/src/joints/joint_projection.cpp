@@ -21,13 +21,25 @@ std::vector<JointRow> violated_rows(const ArticulatedBody& body, std::span<const
   return rows;
 }
 
-}  // namespace
+std::vector<JointRow> held_rows(const ArticulatedBody& body, std::span<const BodyState> states,
+                                std::span<const std::size_t> held_ranges) {
+  std::vector<JointRow> rows = joint_rows(body, states);
+  for (const std::size_t k : held_ranges) {
+    const JointRange& range = body.joints.at(k).range.value();
+    JointRow row = coordinate_row(body.joints[k], states);
+    const double from_low = row.error - range.low, from_high = row.error - range.high;
+    row.error = std::abs(from_low) < std::abs(from_high) ? from_low : from_high;
+    rows.push_back(row);
+  }
+  return rows;
+}
 
-Projection project_positions(const ArticulatedBody& body, std::span<BodyState> states, double tolerance,
-                             int max_sweeps) {
+template <class Rows>
+Projection closed(const ArticulatedBody& body, std::span<BodyState> states, double tolerance, int max_sweeps,
+                  Rows rows_of) {
   Projection done;
   for (;;) {
-    const std::vector<JointRow> rows = violated_rows(body, states);
+    const std::vector<JointRow> rows = rows_of();
     Eigen::VectorXd C(static_cast<Eigen::Index>(rows.size()));
     done.error = 0;
     for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -45,8 +57,21 @@ Projection project_positions(const ArticulatedBody& body, std::span<BodyState> s
   }
 }
 
-double project_velocities(const ArticulatedBody& body, std::span<BodyState> states) {
-  const std::vector<JointRow> rows = joint_rows(body, states);
+}  // namespace
+
+Projection project_positions(const ArticulatedBody& body, std::span<BodyState> states, double tolerance,
+                             int max_sweeps) {
+  return closed(body, states, tolerance, max_sweeps, [&] { return violated_rows(body, states); });
+}
+
+Projection project_positions_held(const ArticulatedBody& body, std::span<BodyState> states,
+                                  std::span<const std::size_t> held_ranges, double tolerance, int max_sweeps) {
+  return closed(body, states, tolerance, max_sweeps, [&] { return held_rows(body, states, held_ranges); });
+}
+
+double project_velocities(const ArticulatedBody& body, std::span<BodyState> states,
+                          std::span<const std::size_t> held_ranges) {
+  const std::vector<JointRow> rows = held_rows(body, states, held_ranges);
   Eigen::VectorXd b(static_cast<Eigen::Index>(rows.size()));
   double largest = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -144,7 +144,8 @@ std::vector<double> resolve_range_impacts(const ArticulatedBody& body, std::span
 }
 
 int advance_within_ranges(const ArticulatedBody& body, Stepper& stepper, double t, double dt,
-                          std::vector<BodyState>& states, const RangeRule& rule, const WrenchField& wrenches) {
+                          std::vector<BodyState>& states, const RangeRule& rule, const WrenchField& wrenches,
+                          const Closing& close) {
   if (!(dt > 0)) throw std::invalid_argument("ranges are kept forwards in time: dt must be > 0");
   const double end = t + dt;
   for (int impacts = 0; impacts <= kMostImpacts; ++impacts) {
@@ -158,6 +159,7 @@ int advance_within_ranges(const ArticulatedBody& body, Stepper& stepper, double 
     const auto after = [&](double h) {
       std::vector<BodyState> moved = states;
       if (h > 0) stepper.step(field, t, h, moved);
+      if (h > 0 && close) close(moved, held);
       return moved;
     };
     std::vector<BodyState> moved = after(end - t);

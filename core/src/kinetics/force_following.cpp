@@ -54,11 +54,18 @@ Trajectory follow_forces(const Scenario& scenario, const Scheme& scheme, double 
   const AccelerationField field = acceleration_field(scenario, scheme.gyroscopic);
   const std::unique_ptr<Stepper> stepper = make_stepper(scheme.integrator);
   const ArticulatedBody body = articulated_body(scenario);
+  const WrenchField wrenches = [&](double t, std::span<const BodyState> at, std::span<Wrench> applied) {
+    evaluate_forces(scenario, t, at, applied);
+  };
   const double h = dt / scheme.substeps;
   for (std::size_t k = 0; k < steps; ++k) {
     for (int j = 0; j < scheme.substeps; ++j) {
-      stepper->step(field, trajectory.time(k) + j * h, h, states);
-      if (!scenario.joints.empty()) back_onto_joints(scenario, body, states);
+      const double t = trajectory.time(k) + j * h;
+      if (scenario.joints.empty()) {
+        stepper->step(field, t, h, states);
+      } else {
+        step_jointed(scenario, body, *stepper, t, h, wrenches, states);
+      }
     }
     record();
   }

@@ -89,6 +89,11 @@ void require_possible(const Scheme& scheme, const Scenario& scenario) {
     if (scheme.gyroscopic != GyroscopicTerm::kExplicit) {
       refuse("joints answer the gyroscopic term at once; choose the explicit one");
     }
+    const bool ranges = std::any_of(scenario.joints.begin(), scenario.joints.end(),
+                                    [](const Joint& joint) { return joint.range.has_value(); });
+    if (ranges && scheme.integrator == Integrator::kPositionVerlet) {
+      refuse("limits of joints cut the step, and this integrator needs the one before; take velocity Verlet");
+    }
   }
   if (!scenario.contact) return;
   if (scheme.forces == ForceSampling::kFollowed) refuse("bodies can touch; hold the forces over the step");

@@ -33,9 +33,8 @@ double rebound_speed(double approach, double resting_speed, double restitution) 
 }  // namespace
 
 FeatureSet simulator_features() {
-  return FeatureSet::all().without({Feature::kJointRange, Feature::kJointsAndContact, Feature::kCylinderHalfSpace,
-                                    Feature::kCylinderCylinder, Feature::kCylinderOther, Feature::kSpring,
-                                    Feature::kJointSpring});
+  return FeatureSet::all().without({Feature::kJointsAndContact, Feature::kCylinderHalfSpace, Feature::kCylinderCylinder,
+                                    Feature::kCylinderOther, Feature::kSpring, Feature::kJointSpring});
 }
 
 Simulator::Simulator(const Scenario& scenario, const Scheme& scheme, const SimulatorOptions& options)

@@ -5,8 +5,9 @@
 //
 // Both are internal: they move neither the centre of mass nor change the linear momentum, and the velocities' part
 // keeps the angular momentum, unless a joint leads to the world. Coordinates beyond their range are put back onto the
-// limit like a joint. Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, section IV.4: a
-// projection after each step keeps the order of the integrator.
+// limit like a joint; where ranges to hold are named, those and no others count, inside their range too. Source:
+// Hairer, Lubich, Wanner, Geometric Numerical Integration, 2nd ed. 2006, section IV.4: a projection after each step
+// keeps the order of the integrator.
 #pragma once
 
 #include <vector>
@@ -25,7 +26,14 @@ struct Projection {
 Projection project_positions(const ArticulatedBody& body, std::span<BodyState> states, double tolerance = 1e-13,
                              int max_sweeps = 20);
 
-// One solve; returns the largest |J v| that was there before [m/s] or [rad/s].
-double project_velocities(const ArticulatedBody& body, std::span<BodyState> states);
+// The same with the coordinates of the joints `held_ranges` on the nearer of their limits.
+Projection project_positions_held(const ArticulatedBody& body, std::span<BodyState> states,
+                                  std::span<const std::size_t> held_ranges, double tolerance = 1e-13,
+                                  int max_sweeps = 20);
+
+// One solve; the coordinates of the joints `held_ranges` stand still too. Returns the largest |J v| that was there
+// before [m/s] or [rad/s].
+double project_velocities(const ArticulatedBody& body, std::span<BodyState> states,
+                          std::span<const std::size_t> held_ranges = {});
 
 }  // namespace plumbline

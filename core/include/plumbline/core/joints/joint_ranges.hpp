@@ -14,6 +14,8 @@
 // rests on its limit is held like a joint while the limit has to push, which is asked at the start of each step.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "plumbline/core/joints/constrained_motion.hpp"
@@ -43,12 +45,17 @@ std::vector<RangeLimit> range_limits(const ArticulatedBody& body);
 std::vector<double> resolve_range_impacts(const ArticulatedBody& body, std::span<BodyState> states,
                                           const RangeRule& rule, double touch = 1e-9);
 
+// What puts bodies back onto their joints, and the coordinates of the joints `held` onto the limit that they rest on,
+// after an integrator has gone ahead: it cannot follow a turning axis exactly.
+using Closing = std::function<void(std::span<BodyState> states, std::span<const std::size_t> held)>;
+
 // One step of dt > 0 [s] that stops at each limit on its way. States must satisfy joints and ranges. Moments of impact
 // are found on the stepper's own path, until the room left is below 1e-12; a coordinate that leaves and re-enters its
-// range within one step is not seen. Only for steppers that need no previous step (not position Verlet), since steps
-// are tried and cut. Returns the number of impacts. Throws std::runtime_error after 100 in one step, and
-// std::invalid_argument as Stepper does.
+// range within one step is not seen. `close` is called after every try of a step, before its room is measured. Only for
+// steppers that need no previous step (not position Verlet), since steps are tried and cut. Returns the number of
+// impacts. Throws std::runtime_error after 100 in one step, and std::invalid_argument as Stepper does.
 int advance_within_ranges(const ArticulatedBody& body, Stepper& stepper, double t, double dt,
-                          std::vector<BodyState>& states, const RangeRule& rule = {}, const WrenchField& wrenches = {});
+                          std::vector<BodyState>& states, const RangeRule& rule = {}, const WrenchField& wrenches = {},
+                          const Closing& close = {});
 
 }  // namespace plumbline

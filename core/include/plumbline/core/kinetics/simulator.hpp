@@ -30,8 +30,8 @@ struct SimulatorOptions {
   Leaps leaps = Leaps::kAllowed;
 };
 
-// What a scenario may need for the simulator to run it: all but limits of joints, joints beside contact, and
-// contact of cylinders. Springs are held over a step like any force.
+// What a scenario may need for the simulator to run it: all but joints beside contact and contact of cylinders.
+// Springs are held over a step like any force.
 FeatureSet simulator_features();
 
 // Impacts at their exact time (course slide 24, the simple motion simulator, with one correction: the slide resolves
