@@ -59,6 +59,8 @@ std::span<const Question> force_questions();
 std::span<const Question> contact_questions();
 std::span<const Question> joint_questions();
 std::span<const Question> spring_questions();
+std::span<const Question> stop_questions();
+std::span<const Question> cylinder_questions();
 std::span<const Question> world_questions();
 std::span<const Question> hostile_questions();
 

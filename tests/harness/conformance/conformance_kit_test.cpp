@@ -36,9 +36,10 @@ void expect_honest(const Lie& lie, const std::set<std::string>& may_lack) {
 TEST(ConformanceKit, AnHonestEngineHoldsEverything) { expect_honest(testing_support::honest(), {}); }
 
 TEST(ConformanceKit, AnHonestPlanarEngineHoldsAllThatIsAskedInThePlane) {
-  expect_honest(testing_support::honest_in_the_plane(),
-                {"inertia_turns_with_the_body", "angular_velocity_is_in_world_axes",
-                 "free_body_keeps_its_angular_momentum", "friction_is_a_cone", "axis_may_be_oblique"});
+  expect_honest(
+      testing_support::honest_in_the_plane(),
+      {"inertia_turns_with_the_body", "angular_velocity_is_in_world_axes", "free_body_keeps_its_angular_momentum",
+       "friction_is_a_cone", "axis_may_be_oblique", "stops_of_an_oblique_axis", "cylinder_rests_on_its_end"});
 }
 
 TEST(ConformanceKit, WhatARowLacksIsNotAskedAndNamed) {

@@ -42,4 +42,6 @@ Lie honest_in_the_plane();
 const std::vector<Lie>& lies();
 void append_spring_lies(std::vector<Lie>& all);  // about force elements: spring_lies.cpp
 
+void append_lies_about_stops_and_cylinders(std::vector<Lie>& all);
+
 }  // namespace plumbline::testing_support

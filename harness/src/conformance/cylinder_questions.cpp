@@ -1,0 +1,180 @@
+// Cylinders: mass properties about all axes, and contact on the side, on the end and with others.
+#include <fmt/format.h>
+
+#include "conformance_scenes.hpp"
+
+namespace plumbline::conformance {
+namespace {
+
+constexpr double kGravity = 9.81;         // [m/s^2]
+constexpr double kShortStep = 1.0 / 256;  // [s]
+constexpr double kSoftness = 1e-5;        // of contacts, as for other shapes
+
+// z, the axis of the cylinder, turned to y: a disc in the x-z plane.
+Quat lying() { return Quat(std::sqrt(0.5), -std::sqrt(0.5), 0, 0); }
+
+Body cylinder(std::string name, double radius, double height, double mass, const Vec3& p_WB,
+              const Vec3& v_WB = Vec3::Zero()) {
+  Body body = ball(std::move(name), 1, mass, p_WB, v_WB);
+  body.shape = Cylinder{radius, height};
+  body.inertia = solid_inertia(body.shape, mass);
+  return body;
+}
+
+void cylinder_echoes_its_inertia(Interview& row) {
+  row.require(Feature::kForce);
+  row.require(Feature::kTorque);
+  Scenario scenario;
+  scenario.bodies = {cylinder("drum", 0.3, 0.8, 4, Vec3(0.2, 0, -0.1))};
+  Body& drum = scenario.bodies[0];
+  drum.initial.q_WB = lying();
+  drum.inertia = Vec3(0.3, 0.5, 0.7);  // of no homogeneous cylinder
+  const double limit = kOneStepRoundings * row.roundoff();
+  for (const Vec3& axis : axes_of_motion(row)) {
+    const BodyState s = push(*row.build(scenario), scenario, 0, {axis, Vec3::Zero()}, kStep, 1)[0];
+    row.within("the change of velocity by 1 N along " + name_of(axis), s.v_WB, kStep / drum.mass * axis,
+               limit * kStep / drum.mass);
+  }
+  for (const Vec3& axis : axes_of_rotation(row)) {
+    const BodyState s = push(*row.build(scenario), scenario, 0, {Vec3::Zero(), axis}, kStep, 1)[0];
+    const Vec3 in_body = drum.initial.q_WB.conjugate() * axis;
+    const double dw = kStep / in_body.cwiseAbs2().dot(drum.inertia);
+    // The attitude is a rounded one: besides 16 roundings, what it tilts.
+    row.within("the change of angular velocity by 1 N m about " + name_of(axis), s.w_WB, dw * axis, 2 * limit * dw);
+  }
+}
+
+void cylinder_rolls_on_its_side(Interview& row) {
+  row.require(Feature::kCylinderHalfSpace);
+  row.require(Feature::kFriction);
+  const double slope = 0.2, radius = 0.3;  // [rad], [m]
+  Scenario scenario;
+  scenario.gravity = Vec3(0, 0, -kGravity);
+  scenario.contact = ContactMaterial{0, 0.6};
+  const Vec3 normal(std::sin(slope), 0, std::cos(slope)), down(std::cos(slope), 0, -std::sin(slope));
+  scenario.bodies = {half_space(normal), cylinder("drum", radius, 0.8, 5, radius * normal)};
+  Body& drum = scenario.bodies[1];
+  drum.initial.q_WB = lying();
+  // A slender rim outside, so that no radius or moment but the stated ones gives the answer.
+  drum.inertia.z() = 0.8 * drum.mass * radius * radius;
+  const int steps = 128;
+  const BodyState s = run(*row.build(scenario), scenario, kShortStep, steps)[1];
+  // m a = m g sin - f, I w' = f r, a = r w'. mu = 0.6 holds it: what is needed is tan(slope) 0.8/1.8 = 0.09.
+  const double speed = kGravity * std::sin(slope) / 1.8 * steps * kShortStep;
+  // Two steps' worth, while the contact settles, and 1 % of the rolling radius for shells around shapes.
+  const double limit = (2.0 / steps + 0.01) * speed;
+  row.within("the velocity after rolling for 1/2 s", s.v_WB, speed * down, limit);
+  row.within("the spin after rolling for 1/2 s", s.w_WB, speed / radius * Vec3::UnitY(), limit / radius);
+  row.within("the height over the slope", s.p_WB.dot(normal), radius, 0.01);
+}
+
+// Dropped from a height of 5 cm, so that it lands for certain.
+void expect_rest(Interview& row, const Quat& q_WB, double height_at_rest, const std::string& how) {
+  Scenario scenario;
+  scenario.gravity = Vec3(0, 0, -kGravity);
+  scenario.contact = ContactMaterial{0, 0.5};
+  const double drop = 0.05;
+  scenario.bodies = {half_space(Vec3::UnitZ()), cylinder("drum", 0.4, 0.6, 50, Vec3(0, 0, height_at_rest + drop))};
+  scenario.bodies[1].initial.q_WB = q_WB;
+  const auto world = row.build(scenario);
+  BodyState s;
+  for (int k = 0; k < 256; ++k) s = run(*world, scenario, kShortStep, 1)[1];
+  row.within("the height" + how, s.p_WB.z(), height_at_rest, 0.01);
+  // At rest: slower than gravity makes it within one step; a point of the rim too.
+  row.within("the speed" + how, s.v_WB, Vec3::Zero(), kGravity * kShortStep);
+  row.within("the spin" + how, s.w_WB, Vec3::Zero(), kGravity * kShortStep / 0.4);
+  row.within("the tilt" + how, (s.q_WB * Vec3::UnitZ()).cross(q_WB * Vec3::UnitZ()).norm(), 0,
+             0.1 * std::sqrt(2 * kGravity * drop) * kShortStep / 0.4);
+}
+
+void cylinder_rests_on_its_side(Interview& row) {
+  row.require(Feature::kCylinderHalfSpace);
+  expect_rest(row, lying(), 0.4, " at rest on its side");
+}
+
+void cylinder_rests_on_its_end(Interview& row) {
+  row.require(Feature::kCylinderHalfSpace);
+  row.require(Feature::kSpatial);
+  expect_rest(row, Quat::Identity(), 0.3, " at rest on its end");
+}
+
+// Straight at each other along x; `other` has the radius `reach` towards it.
+void expect_parting(Interview& row, Body disc, Body other, double reach, const std::string& how) {
+  const double e = 0.5, radius = std::get<Cylinder>(disc.shape).radius;
+  Scenario scenario;
+  scenario.contact = ContactMaterial{e, 0};
+  const double approach = disc.initial.v_WB.x() - other.initial.v_WB.x();
+  const double gap = other.initial.p_WB.x() - disc.initial.p_WB.x() - radius - reach;
+  scenario.bodies = {disc, other};
+  const int steps = 160;
+  const auto s = run(*row.build(scenario), scenario, kShortStep, steps);
+  row.within("the speed of separation" + how, s[1].v_WB.x() - s[0].v_WB.x(), e * approach, kSoftness * approach);
+  // One step late to see the impact, one to answer.
+  const double parted = e * (approach * steps * kShortStep - gap);
+  row.within("the distance after" + how, s[1].p_WB.x() - s[0].p_WB.x() - radius - reach, parted,
+             2 * approach * kShortStep * (1 + e));
+  for (std::size_t i = 0; i < 2; ++i) {
+    // Centre on centre nothing turns and nothing is thrown aside.
+    row.within("the spin of '" + scenario.bodies[i].name + "'" + how, s[i].w_WB, Vec3::Zero(),
+               0.01 * approach / radius);
+    row.within("the drift of '" + scenario.bodies[i].name + "'" + how, Vec3(0, s[i].v_WB.y(), s[i].v_WB.z()),
+               Vec3::Zero(), 0.01 * approach);
+  }
+}
+
+void parallel_cylinders_part_as_stated(Interview& row) {
+  row.require(Feature::kCylinderCylinder);
+  row.require(Feature::kRestitution);
+  Body one = cylinder("one", 0.2, 0.5, 2, Vec3(-0.5, 0, 0), Vec3(3, 0, 0));
+  Body other = cylinder("other", 0.1, 0.5, 2, Vec3(0.43, 0, 0), Vec3(-1, 0, 0));
+  one.initial.q_WB = other.initial.q_WB = lying();
+  expect_parting(row, one, other, 0.1, " of parallel cylinders");
+  // A fixed one sends the other back.
+  other.fixed = true;
+  other.mass = 0;
+  other.inertia = other.initial.v_WB = Vec3::Zero();
+  expect_parting(row, one, other, 0.1, " of a cylinder and a fixed one");
+}
+
+void cylinder_meets_other_shapes(Interview& row) {
+  row.require(Feature::kCylinderOther);
+  row.require(Feature::kRestitution);
+  Body disc = cylinder("disc", 0.2, 0.5, 2, Vec3(-0.5, 0, 0), Vec3(3, 0, 0));
+  disc.initial.q_WB = lying();
+  expect_parting(row, disc, ball("ball", 0.1, 1, Vec3(0.43, 0, 0), Vec3(-1, 0, 0)), 0.1, " of a cylinder and a ball");
+  expect_parting(row, disc, box("box", Vec3(0.2, 0.4, 0.3), 3, Vec3(0.43, 0, 0), Vec3(-1, 0, 0)), 0.1,
+                 " of a cylinder and a box");
+}
+
+const Question kQuestions[] = {
+    {{"cylinder_echoes_its_inertia", "cylinders",
+      "Does a cylinder answer 1 N and 1 N m with the stated mass and moments about all axes, its own being z?",
+      "16 roundings; 32 for the spin, since its attitude is rounded too", false},
+     cylinder_echoes_its_inertia},
+    {{"cylinder_rolls_on_its_side", "cylinders",
+      "Does a cylinder roll down a slope straight on, as fast as its moment of inertia lets it?",
+      "two of 128 steps' worth while the contact settles, and 1 % of the radius for shells", true},
+     cylinder_rolls_on_its_side},
+    {{"cylinder_rests_on_its_side", "cylinders",
+      "Does a cylinder that is dropped on its side rest there at its radius?",
+      "1 cm in height, one step of gravity in speed, 0.1 v/radius of a step in tilt", true},
+     cylinder_rests_on_its_side},
+    {{"cylinder_rests_on_its_end", "cylinders",
+      "Does a cylinder that is dropped on its end stand there at half its height?",
+      "1 cm in height, one step of gravity in speed, 0.1 v/radius of a step in tilt", true},
+     cylinder_rests_on_its_end},
+    {{"parallel_cylinders_part_as_stated", "cylinders",
+      "Do parallel cylinders meet where their sides touch, and part straight with the stated e?",
+      "1e-5 of the speed; the place to two steps; 1 % of it aside or into spin", true},
+     parallel_cylinders_part_as_stated},
+    {{"cylinder_meets_other_shapes", "cylinders",
+      "Do a cylinder and a ball or box meet where they touch, and part straight with the stated e?",
+      "1e-5 of the speed; the place to two steps; 1 % of it aside or into spin", true},
+     cylinder_meets_other_shapes},
+};
+
+}  // namespace
+
+std::span<const Question> cylinder_questions() { return kQuestions; }
+
+}  // namespace plumbline::conformance
