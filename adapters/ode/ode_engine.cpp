@@ -47,7 +47,8 @@ class OdeWorld final : public World {
     try {
       for (const Body& body : scenario.bodies) add(body);
       for (const Joint& joint : scenario.joints) {
-        add_ode_joint(world_, joint, joint.a == kWorld ? nullptr : residents_[joint.a].body, residents_[joint.b].body);
+        add_ode_joint(world_, joint, joint.a == kWorld ? nullptr : residents_[joint.a].body, residents_[joint.b].body,
+                      knobs.stop_erp);
       }
     } catch (...) {
       destroy();
@@ -120,6 +121,8 @@ class OdeWorld final : public World {
     }
     if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
       geometry = dCreateSphere(space_, sphere->radius);
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&body.shape)) {
+      geometry = dCreateCylinder(space_, cylinder->radius, cylinder->height);
     } else {
       const Vec3& size = std::get<Box>(body.shape).size;
       geometry = dCreateBox(space_, size.x(), size.y(), size.z());
@@ -210,12 +213,12 @@ class OdeEngine final : public Engine {
     info_.precision = sizeof(dReal) == sizeof(double) ? Precision::kDouble : Precision::kSingle;
     info_.scheme = "semi-implicit Euler";
     dSetMessageHandler(keep_message);
-    info_.features = {Feature::kSpatial,      Feature::kForce,           Feature::kTorque,
-                      Feature::kSphereSphere, Feature::kSphereBox,       Feature::kSphereHalfSpace,
-                      Feature::kBoxHalfSpace, Feature::kBoxBox,          Feature::kRestitution,
-                      Feature::kFriction,     Feature::kBallJoint,       Feature::kHinge,
-                      Feature::kSlider,       Feature::kFixedJoint,      Feature::kDistanceJoint,
-                      Feature::kJointLoop,    Feature::kJointsAndContact};
+    using enum Feature;
+    info_.features = {kSpatial,         kForce,        kTorque,    kSphereSphere,      kSphereBox,
+                      kSphereHalfSpace, kBoxHalfSpace, kBoxBox,    kCylinderHalfSpace, kCylinderCylinder,
+                      kCylinderOther,   kRestitution,  kFriction,  kBallJoint,         kHinge,
+                      kSlider,          kFixedJoint,   kJointLoop, kDistanceJoint,     kJointRange,
+                      kJointsAndContact};
     info_.settings = knobs_.rows();
   }
 

@@ -34,9 +34,18 @@ dJointID create(dWorldID world, JointKind kind) {
   throw std::logic_error("a joint of no kind");
 }
 
+// With b for the first body ODE's coordinate has our sign and zero. Stops are plastic: no bounce.
+template <typename SetParam>
+void set_stops(dJointID id, const JointRange& range, double stop_erp, SetParam set) {
+  set(id, dParamLoStop, range.low);
+  set(id, dParamHiStop, range.high);
+  set(id, dParamBounce, 0);
+  set(id, dParamStopERP, stop_erp);
+}
+
 }  // namespace
 
-void add_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b) {
+void add_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b, double stop_erp) {
   const dJointID id = create(world, joint.kind);
   dJointAttach(id, b, a);
   // ODE takes anchors and axes in W and remembers where they are on both bodies.
@@ -48,9 +57,11 @@ void add_ode_joint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b) {
     case JointKind::kHinge:
       dJointSetHingeAnchor(id, p.x(), p.y(), p.z());
       dJointSetHingeAxis(id, axis.x(), axis.y(), axis.z());
+      if (joint.range) set_stops(id, *joint.range, stop_erp, dJointSetHingeParam);
       break;
     case JointKind::kSlider:
       dJointSetSliderAxis(id, axis.x(), axis.y(), axis.z());
+      if (joint.range) set_stops(id, *joint.range, stop_erp, dJointSetSliderParam);
       break;
     case JointKind::kFixed:
       dJointSetFixed(id);

@@ -11,6 +11,9 @@ KnobTable<OdeKnobs> ode_knob_table(OdeSolver solver) {
       .add(&K::erp, "erp", 0.2, 0.2, "1",
            "share of the error that a step corrects, by real velocity: of penetration and of what a joint holds")
       .add(&K::cfm, "cfm", 1e-10, 1e-10, "s/kg", "softness of the constraints, contacts and joints alike")
+      .add(&K::stop_erp, "stop_erp", 0.2, 0, "1",
+           "share of what a limit of a joint was passed by that a step corrects, by real velocity: a stop reached at "
+           "depth d throws back with stop_erp d/dt; without it the joint stays that far beyond")
       .add(&K::max_correcting_velocity, "max_correcting_velocity", dInfinity, dInfinity, "m/s",
            "separating velocity that the correction of a contact may cause")
       .add(&K::correct_within_gravity_step, "correct_within_gravity_step", false, true, "",

@@ -9,7 +9,7 @@ enum class OdeSolver { kStep, kQuickStep };
 enum class OdeFriction { kForceLimit, kPyramid, kAlignedPyramid };
 
 struct OdeKnobs {
-  double erp, cfm, max_correcting_velocity;
+  double erp, cfm, stop_erp, max_correcting_velocity;
   bool correct_within_gravity_step;
   double surface_layer, bounce_threshold;
   OdeFriction friction;
