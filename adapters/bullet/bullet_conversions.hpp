@@ -27,6 +27,9 @@ inline std::unique_ptr<btCollisionShape> bullet_shape(const Body& body) {
   if (const auto* box = std::get_if<Box>(&body.shape)) {
     return std::make_unique<btBoxShape>(vector(0.5 * box->size));
   }
+  if (const auto* cylinder = std::get_if<Cylinder>(&body.shape)) {
+    return std::make_unique<btCylinderShapeZ>(vector(Vec3(cylinder->radius, cylinder->radius, 0.5 * cylinder->height)));
+  }
   return std::make_unique<btStaticPlaneShape>(vector(std::get<HalfSpace>(body.shape).normal), real(0));
 }
 

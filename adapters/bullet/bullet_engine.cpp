@@ -21,7 +21,7 @@ class BulletWorld final : public World {
     solver.m_globalCfm = real(knobs.cfm);
     world_.setGravity(vector(scenario.gravity));
     for (const Body& body : scenario.bodies) add(body, scenario.contact, knobs);
-    for (const Joint& joint : scenario.joints) add(joint);
+    for (const Joint& joint : scenario.joints) add(joint, knobs);
   }
 
   ~BulletWorld() override {
@@ -98,10 +98,10 @@ class BulletWorld final : public World {
     residents_.push_back(std::move(r));
   }
 
-  void add(const Joint& joint) {
+  void add(const Joint& joint, const BulletStops& stops) {
     const bool to_world = joint.a == kWorld;
     btRigidBody& a = to_world ? btTypedConstraint::getFixedBody() : *residents_[joint.a].body;
-    joints_.push_back(bullet_joint(joint, a, *residents_[joint.b].body));
+    joints_.push_back(bullet_joint(joint, a, *residents_[joint.b].body, stops));
     // Bullet notes on both bodies that they do not collide. Its fixed body is shared by all worlds and collides with
     // nothing.
     world_.addConstraint(joints_.back().get(), !to_world);
@@ -124,11 +124,15 @@ class BulletEngine final : public Engine {
     info_.version = std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100);
     info_.precision = kBulletIsDouble ? Precision::kDouble : Precision::kSingle;
     info_.scheme = "semi-implicit Euler";
-    info_.features = {
-        Feature::kSpatial,     Feature::kForce,           Feature::kTorque,       Feature::kSphereSphere,
-        Feature::kSphereBox,   Feature::kSphereHalfSpace, Feature::kBoxHalfSpace, Feature::kBoxBox,
-        Feature::kRestitution, Feature::kFriction,        Feature::kBallJoint,    Feature::kHinge,
-        Feature::kSlider,      Feature::kFixedJoint,      Feature::kJointLoop,    Feature::kJointsAndContact};
+    using enum Feature;
+    info_.features = {kSpatial,      kForce,      kTorque,      kSphereSphere, kSphereBox,        kSphereHalfSpace,
+                      kBoxHalfSpace, kBoxBox,     kRestitution, kFriction,     kBallJoint,        kHinge,
+                      kSlider,       kFixedJoint, kJointLoop,   kJointRange,   kJointsAndContact, kCylinderHalfSpace};
+    // In single precision the search for the nearest points leaves the normal of a round side two degrees off.
+    if (kBulletIsDouble) {
+      info_.features.insert(kCylinderCylinder);
+      info_.features.insert(kCylinderOther);
+    }
     info_.settings = knobs_.rows();
   }
 

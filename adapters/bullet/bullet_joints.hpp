@@ -9,7 +9,13 @@
 
 namespace plumbline {
 
+// How limits of joints stop; what each does is told beside the knobs.
+struct BulletStops {
+  double stop_erp, hinge_stop_bias, hinge_stop_bounce;
+};
+
 // `a` is Bullet's own fixed body for a joint to the world.
-std::unique_ptr<btTypedConstraint> bullet_joint(const Joint& joint, btRigidBody& a, btRigidBody& b);
+std::unique_ptr<btTypedConstraint> bullet_joint(const Joint& joint, btRigidBody& a, btRigidBody& b,
+                                                const BulletStops& stops);
 
 }  // namespace plumbline

@@ -42,6 +42,13 @@ KnobTable<BulletRigidKnobs> bullet_rigid_knob_table() {
            "dt) instead of e; 0: never")
       .add(&K::erp2, "erp2", 0.2, 0.2, "1", "share of the penetration that a step corrects")
       .add(&K::erp, "erp", 0.2, 0.2, "1", "share of what a joint is off that a step corrects, by real velocity")
+      .add(&K::stop_erp, "stop_erp", 0.2, 0, "1",
+           "share of what a limit of a joint was passed by that a step corrects, by real velocity: a stop reached at "
+           "depth d throws back with stop_erp d/dt; without it the joint stays that far beyond")
+      .add(&K::hinge_stop_bounce, "hinge_stop_bounce", 1, 0, "1",
+           "restitution of a hinge's limits, which Bullet calls relaxation; 1 unless told otherwise")
+      .add(&K::hinge_stop_bias, "hinge_stop_bias", 0.3, 1, "1",
+           "factor on both, the correction and the restitution of a hinge's limits")
       .add(&K::cfm, "cfm", 0, 0, "s/kg", "softness of the constraints, contacts and joints alike");
   return table;
 }

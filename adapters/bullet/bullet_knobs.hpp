@@ -4,6 +4,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include "bullet_joints.hpp"
 #include "plumbline/adapters/knob_table.hpp"
 
 namespace plumbline {
@@ -14,7 +15,7 @@ struct BulletContactKnobs {
   int plane_contact_iterations;
 };
 
-struct BulletRigidKnobs : BulletContactKnobs {
+struct BulletRigidKnobs : BulletContactKnobs, BulletStops {
   bool sleeping;
   double sleeping_linear_speed, sleeping_angular_speed, linear_damping, angular_damping;
   int gyroscopic;

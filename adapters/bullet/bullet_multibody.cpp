@@ -17,7 +17,7 @@ namespace {
 
 struct MultibodyKnobs : BulletContactKnobs {
   bool sleeping, gyroscopic, warm_starting;
-  double linear_damping, angular_damping, max_coordinate_velocity;
+  double linear_damping, angular_damping, max_coordinate_velocity, stop_erp, stop_max_impulse;
 };
 
 KnobTable<MultibodyKnobs> knob_table() {
@@ -35,6 +35,11 @@ KnobTable<MultibodyKnobs> knob_table() {
            "faster coordinates are cut to this, silently")
       .add(&K::gyroscopic, "gyroscopic", true, true, "", "integrates w x I w");
   return add_bullet_contact_knobs(table)
+      .add(&K::stop_erp, "stop_erp", 0.2, 0, "1",
+           "share of what a limit of a joint was passed by that a step corrects, by real velocity: a stop reached at "
+           "depth d throws back with stop_erp d/dt; without it the joint stays that far beyond")
+      .add(&K::stop_max_impulse, "stop_max_impulse", 100, kBulletNever, "N s or N m s",
+           "the most that a limit of a joint gives in a step")
       .add(&K::warm_starting, "warm_starting", false, false, "", "starts from the impulses of the step before")
       .add(&K::erp2, "erp2", 0.2, 0, "1",
            "share of the penetration that a step corrects, always by real velocity: split impulses are not for "
@@ -48,6 +53,7 @@ class MultibodyWorld final : public World {
       : contact_(scenario.contact), threshold_(real(knobs.contact_processing_threshold)) {
     set_bullet_contact(knobs, collision_, world_.getSolverInfo());
     if (knobs.warm_starting) world_.getSolverInfo().m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
+    world_.getSolverInfo().m_erp = real(knobs.stop_erp);  // of limits alone: joints are held by their coordinates
     world_.setGravity(vector(scenario.gravity));
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) {
       if (scenario.bodies[i].fixed) add_fixed(i, scenario.bodies[i]);
@@ -58,6 +64,7 @@ class MultibodyWorld final : public World {
 
   ~MultibodyWorld() override {
     for (const auto& collider : colliders_) world_.removeCollisionObject(collider.get());
+    for (const auto& stop : stops_) world_.removeMultiBodyConstraint(stop.get());
     for (const Tree& tree : trees_) world_.removeMultiBody(tree.multibody.get());
   }
 
@@ -164,6 +171,11 @@ class MultibodyWorld final : public World {
       if (link.joint) set_initial_rate(multibody, places_[link.body].link, scenario, *link.joint);
     }
     world_.addMultiBody(&multibody);
+    for (const TreeLink& link : links) {
+      if (!link.joint || !link.joint->range) continue;
+      stops_.push_back(bullet_stop(multibody, places_[link.body].link, *link.joint->range, knobs.stop_max_impulse));
+      world_.addMultiBodyConstraint(stops_.back().get());
+    }
     for (const TreeLink& link : links) add_collider(multibody, places_[link.body].link, scenario.bodies[link.body]);
     trees_.push_back(std::move(tree));
   }
@@ -201,6 +213,7 @@ class MultibodyWorld final : public World {
   std::vector<Fixed> fixed_;
   std::vector<Place> places_;  // of each body
   std::vector<Tree> trees_;
+  std::vector<std::unique_ptr<btMultiBodyConstraint>> stops_;
 };
 
 class MultibodyEngine final : public Engine {
@@ -211,11 +224,12 @@ class MultibodyEngine final : public Engine {
     info_.version = std::to_string(btGetVersion() / 100) + "." + std::to_string(btGetVersion() % 100);
     info_.precision = kBulletIsDouble ? Precision::kDouble : Precision::kSingle;
     info_.scheme = "semi-implicit Euler in joint coordinates";
-    info_.features = {Feature::kSpatial,      Feature::kForce,      Feature::kTorque,
-                      Feature::kSphereSphere, Feature::kSphereBox,  Feature::kSphereHalfSpace,
-                      Feature::kBoxHalfSpace, Feature::kBoxBox,     Feature::kRestitution,
-                      Feature::kFriction,     Feature::kBallJoint,  Feature::kHinge,
-                      Feature::kSlider,       Feature::kFixedJoint, Feature::kJointsAndContact};
+    using enum Feature;
+    info_.features = {
+        kSpatial,         kForce,      kTorque,      kSphereSphere,     kSphereBox,         kSphereHalfSpace,
+        kBoxHalfSpace,    kBoxBox,     kRestitution, kFriction,         kBallJoint,         kHinge,
+        kSlider,          kFixedJoint, kJointRange,  kJointsAndContact, kCylinderHalfSpace, kCylinderOther,
+        kCylinderCylinder};
     info_.settings = knobs_.rows();
   }
 

@@ -1,5 +1,7 @@
 #include "bullet_tree.hpp"
 
+#include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
+
 #include <stdexcept>
 
 #include "bullet_conversions.hpp"
@@ -56,6 +58,14 @@ void set_up_link(btMultiBody& tree, int i, int parent, const Scenario& scenario,
       break;
   }
   throw std::logic_error("a rod is no joint of a tree");
+}
+
+std::unique_ptr<btMultiBodyConstraint> bullet_stop(btMultiBody& tree, int i, const JointRange& range,
+                                                   double max_impulse) {
+  auto stop = std::make_unique<btMultiBodyJointLimitConstraint>(&tree, i, real(range.low), real(range.high));
+  stop->setMaxAppliedImpulse(real(max_impulse));
+  stop->finalizeMultiDof();
+  return stop;
 }
 
 void set_initial_rate(btMultiBody& tree, int i, const Scenario& scenario, const Joint& joint) {
