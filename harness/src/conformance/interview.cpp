@@ -13,9 +13,9 @@ std::string text_of(const Vec3& v) { return fmt::format("({:.9g}, {:.9g}, {:.9g}
 
 std::vector<Question> all_questions() {
   std::vector<Question> all;
-  for (const auto theme : {description_questions, mass_questions, frame_questions, force_questions, contact_questions,
-                           joint_questions, spring_questions, stop_questions, cylinder_questions, world_questions,
-                           hostile_questions}) {
+  for (const auto theme :
+       {description_questions, mass_questions, frame_questions, force_questions, contact_questions, joint_questions,
+        spring_questions, stop_questions, cylinder_questions, world_questions, hostile_questions}) {
     std::ranges::copy(theme(), std::back_inserter(all));
   }
   return all;

@@ -40,8 +40,7 @@ std::unique_ptr<World> build_lying(const Lie& lie, const Engine& engine, const S
 Lie honest();
 Lie honest_in_the_plane();
 const std::vector<Lie>& lies();
-void append_spring_lies(std::vector<Lie>& all);  // about force elements: spring_lies.cpp
-
-void append_lies_about_stops_and_cylinders(std::vector<Lie>& all);
+void append_spring_lies(std::vector<Lie>& all);                     // about force elements: spring_lies.cpp
+void append_lies_about_stops_and_cylinders(std::vector<Lie>& all);  // lies_about_stops.cpp
 
 }  // namespace plumbline::testing_support
