@@ -15,16 +15,17 @@ Start here:
   plumbline run -f drag_ship -P v0=0,10,30       other parameters
   plumbline run my_case.toml                     your own scenario file
   plumbline list                                 what there is
+  plumbline certify                              whether the references are right: second sources
   plumbline compare old/results.json new/results.json
   plumbline doctor                               what was found and what is missing
   plumbline adapter test ode                     whether an adapter hands on what is stated
 
-Exit codes: 0 all pass, 1 a gate failed, 2 usage or bad file, 3 engine or infrastructure error, 4 nothing matched,
-77 everything was skipped, 130 interrupted.)";
+Exit codes: 0 all pass, 1 a gate or a reference failed, 2 usage or bad file, 3 engine or infrastructure error,
+4 nothing matched, 77 everything was skipped, 130 interrupted.)";
 
-constexpr void (*kVerbs[])(CLI::App&, plumbline::Action&) = {plumbline::add_run_verb, plumbline::add_list_verb,
-                                                             plumbline::add_compare_verb, plumbline::add_doctor_verb,
-                                                             plumbline::add_adapter_verb};
+constexpr void (*kVerbs[])(CLI::App&, plumbline::Action&) = {plumbline::add_run_verb,     plumbline::add_list_verb,
+                                                             plumbline::add_certify_verb, plumbline::add_compare_verb,
+                                                             plumbline::add_doctor_verb,  plumbline::add_adapter_verb};
 
 }  // namespace
 

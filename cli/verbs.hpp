@@ -13,6 +13,7 @@ namespace plumbline {
 using Action = std::function<int()>;
 void add_run_verb(CLI::App& program, Action& action);
 void add_list_verb(CLI::App& program, Action& action);
+void add_certify_verb(CLI::App& program, Action& action);
 void add_compare_verb(CLI::App& program, Action& action);
 void add_doctor_verb(CLI::App& program, Action& action);
 void add_adapter_verb(CLI::App& program, Action& action);

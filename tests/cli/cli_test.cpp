@@ -93,7 +93,8 @@ reason = "first order"
 TEST_F(Cli, HelpTeaches) {
   const Outcome help = plumbline("--help");
   EXPECT_EQ(help.code, kExitPass);
-  for (const char* word : {"run", "list", "compare", "doctor", "adapter", "Exit codes", "plumbline run -f"}) {
+  for (const char* word :
+       {"run", "list", "certify", "compare", "doctor", "adapter", "Exit codes", "plumbline run -f"}) {
     EXPECT_TRUE(contains(help.out, word)) << word;
   }
   EXPECT_EQ(plumbline("run --help").code, kExitPass);
@@ -104,7 +105,8 @@ TEST_F(Cli, AWrongWordIsAUsageError) {
   for (const char* arguments :
        {"", "frobnicate", "run --frobnicate", "run --jobs 0", "run --dt 0", "run --dt 1/0", "run --dt -1",
         "run --profile best", "run -P v0", "run -P v0=x", "run -P nonsense=1", "run -e nonsense", "run -f '['",
-        "run nonsense.toml", "compare a.json", "compare a.json b.json", "run --timeout 0"}) {
+        "run nonsense.toml", "compare a.json", "compare a.json b.json", "run --timeout 0", "certify nonsense.toml",
+        "certify --tier quick"}) {
     const Outcome outcome = plumbline(arguments);
     EXPECT_EQ(outcome.code, kExitUsage) << arguments << '\n' << outcome.err;
     EXPECT_GT(outcome.err.size() + outcome.out.size(), 10u) << arguments << " says nothing";
@@ -116,6 +118,7 @@ TEST_F(Cli, AWrongWordIsAUsageError) {
 TEST_F(Cli, NothingMatchedHasItsOwnCode) {
   EXPECT_EQ(plumbline("run -f no_such_case").code, kExitNothingMatched);
   EXPECT_EQ(plumbline("list -f no_such_case").code, kExitNothingMatched);
+  EXPECT_EQ(plumbline("certify -f no_such_case").code, kExitNothingMatched);
 }
 
 TEST_F(Cli, ListsScenariosAndEnginesForProgramsAndPeople) {
@@ -271,6 +274,40 @@ TEST_F(Cli, ARunPutsItsEnginesBeforeTheKitUnlessToldNotTo) {
   EXPECT_TRUE(fs::exists(folder_ / "plumbline-results/conformance.html"));
   EXPECT_EQ(all_with_fakes(run + " --no-conformance").code, kExitPass);
   EXPECT_FALSE(fs::exists(folder_ / "plumbline-results/conformance.html")) << "the page of another run was left";
+}
+
+TEST_F(Cli, CertifiesReferencesAndNamesWhatFails) {
+  write("fall.toml", kFreeFall);
+  const Outcome sound = plumbline("certify fall.toml");
+  EXPECT_EQ(sound.code, kExitPass) << sound.out << sound.err;
+  EXPECT_TRUE(contains(sound.out, "ok    my/fall")) << sound.out;
+  EXPECT_TRUE(contains(sound.out, "1 references, 1 without a failure")) << sound.out;
+
+  std::string text = kFreeFall;
+  write("slow.toml", text.replace(text.find("-9.81*t^2/2"), 4, "-9.8"));
+  const Outcome slow = plumbline("certify slow.toml");
+  EXPECT_EQ(slow.code, kExitGateFailed) << slow.out;
+  EXPECT_TRUE(contains(slow.out, "FAIL  slow.toml:16: my/fall: motion: place against")) << slow.out;
+
+  text = kFreeFall +
+         "[[certificate]]\nquantity = \"ball_z + 4.9\"\nequals = 0\ntime = 1\nwithin = 1e-3\nsource = \"a slip\"\n";
+  write("stated.toml", text);
+  const Outcome stated = plumbline("certify stated.toml");
+  EXPECT_EQ(stated.code, kExitGateFailed);
+  EXPECT_TRUE(contains(stated.out,
+                       "FAIL  stated.toml:25: my/fall: certificate: ball_z + 4.9 = 0 (a slip): is 0.005, "
+                       "may be 0.001"))
+      << stated.out;
+}
+
+TEST_F(Cli, CertifiesForPrograms) {
+  write("fall.toml", kFreeFall);
+  ASSERT_EQ(plumbline("certify fall.toml --json -o rows.json").code, kExitPass);
+  const auto document = nlohmann::json::parse(text_of(folder_ / "rows.json"));
+  EXPECT_EQ(document.at("holds"), true);
+  const auto& row = document.at("cases").at(0).at("rows").at(0);
+  EXPECT_LE(row.at("figure").get<double>(), row.at("bound").get<double>());
+  EXPECT_EQ(plumbline("certify fall.toml -o no/such/folder").code, kExitUsage);
 }
 
 TEST_F(Cli, CtrlCKeepsWhatThereIs) {
