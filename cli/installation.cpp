@@ -38,7 +38,8 @@ Installation find_installation() {
       if (!folder.empty()) add_workers(folder, result.workers);
     }
   }
-  add_workers(root / "libexec/plumbline", result.workers);
+  result.programs = root / "libexec/plumbline";
+  add_workers(result.programs, result.workers);
   std::ifstream left_out(root / "share/plumbline/engines_left_out.tsv");
   for (std::string line; std::getline(left_out, line);) {
     const std::size_t tab = line.find('\t');  // a library may take several packages, with spaces between

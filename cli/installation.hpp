@@ -13,6 +13,7 @@ struct LeftOutEngine {
 
 struct Installation {
   std::filesystem::path scenarios;             // folder of scenario files
+  std::filesystem::path programs;              // folder of the small programs that the verbs call
   std::vector<std::filesystem::path> workers;  // programs plumbline-engine-*, sorted by name
   std::vector<LeftOutEngine> left_out;         // engines whose library was missing at build time
 };

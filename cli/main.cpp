@@ -19,13 +19,17 @@ Start here:
   plumbline compare old/results.json new/results.json
   plumbline doctor                               what was found and what is missing
   plumbline adapter test ode                     whether an adapter hands on what is stated
+  plumbline export friction/incline -P mu=0.2 --as mjcf -o incline.xml     its world for MuJoCo; also sdf, urdf
+  plumbline export --reference rotation/free_rotation --dt 0.01 --as npz -o exact.npz
+  plumbline import robot.sdf -o robot.toml       a world of Gazebo, ROS (URDF) or MuJoCo as a scenario
 
 Exit codes: 0 all pass, 1 a gate or a reference failed, 2 usage or bad file, 3 engine or infrastructure error,
 4 nothing matched, 77 everything was skipped, 130 interrupted.)";
 
-constexpr void (*kVerbs[])(CLI::App&, plumbline::Action&) = {plumbline::add_run_verb,     plumbline::add_list_verb,
-                                                             plumbline::add_certify_verb, plumbline::add_compare_verb,
-                                                             plumbline::add_doctor_verb,  plumbline::add_adapter_verb};
+constexpr void (*kVerbs[])(CLI::App&, plumbline::Action&) = {
+    plumbline::add_run_verb,     plumbline::add_list_verb,    plumbline::add_compare_verb, plumbline::add_doctor_verb,
+    plumbline::add_adapter_verb, plumbline::add_certify_verb, plumbline::add_export_verb,  plumbline::add_import_verb};
+
 
 }  // namespace
 

@@ -17,5 +17,7 @@ void add_certify_verb(CLI::App& program, Action& action);
 void add_compare_verb(CLI::App& program, Action& action);
 void add_doctor_verb(CLI::App& program, Action& action);
 void add_adapter_verb(CLI::App& program, Action& action);
+void add_export_verb(CLI::App& program, Action& action);
+void add_import_verb(CLI::App& program, Action& action);
 
 }  // namespace plumbline
