@@ -6,6 +6,7 @@
 
 #include "plumbline/core/exact/planar_pendulum.hpp"
 #include "plumbline/core/exact/torque_free_top.hpp"
+#include "solution_collision.hpp"
 
 namespace plumbline {
 namespace {
@@ -112,6 +113,10 @@ const std::vector<Solution>& solutions() {
        solved_by<TorqueFreeRotation>},
       {"planar_pendulum", "the energy integral solved by Jacobi's elliptic functions; Landau and Lifshitz, section 11",
        solved_by<PendulumOnHinge>},
+      {"rocking_block",
+       "a pendulum upside down between plastic impacts, by Jacobi's elliptic functions; Housner, Bull. Seism. Soc. Am. "
+       "53, 403 (1963), without his small angles",
+       solve_rocking_block},
   };
   return kTable;
 }
