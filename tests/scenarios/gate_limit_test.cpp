@@ -147,7 +147,8 @@ TEST_P(EveryGate, PassesEveryFirstOrderSchemeThatSolvesTheProblem) {
 
 INSTANTIATE_TEST_SUITE_P(Files, EveryGate,
                          testing::Values("particle/falling_box", "particle/drag_ship", "collision/two_sphere",
-                                         "collision/box_drop", "collision/bouncing_ball"),
+                                         "collision/box_drop", "collision/bouncing_ball", "collision/mass_ratio",
+                                         "collision/fixed_obstacle", "collision/elastic_ball", "collision/zeno_ball"),
                          [](const auto& row) { return row.param.substr(row.param.find('/') + 1); });
 
 double worst(const std::string& id, const std::string& metric) {
