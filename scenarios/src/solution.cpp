@@ -7,6 +7,7 @@
 #include "plumbline/core/exact/planar_pendulum.hpp"
 #include "plumbline/core/exact/torque_free_top.hpp"
 #include "solution_collision.hpp"
+#include "solution_contact.hpp"
 
 namespace plumbline {
 namespace {
@@ -117,6 +118,11 @@ const std::vector<Solution>& solutions() {
        "a pendulum upside down between plastic impacts, by Jacobi's elliptic functions; Housner, Bull. Seism. Soc. Am. "
        "53, 403 (1963), without his small angles",
        solve_rocking_block},
+      {"leaving_sphere", "a pendulum upside down until the pressure ends, then a parabola; exact/leaving_sphere.hpp",
+       solve_leaving_sphere},
+      {"falling_ladder", "the equation of the ladder's angle, integrated; Kapranidis and Koo, CMJ 39 (2008) 374",
+       solve_falling_ladder},
+      {"curling_disc", "Farkas, Bartels, Unger and Wolf, Physical Review Letters 90 (2003) 248302", solve_curling_disc},
   };
   return kTable;
 }
