@@ -46,7 +46,7 @@ TEST(LeavingSphere, RunsOnTheSphereByItsEquationAndThenFalls) {
       EXPECT_NEAR(p.head<2>().norm(), path, 1e-14);
       EXPECT_NEAR((1 + k) * a.head<2>().dot(along), g * out.x(), 1e-10);
       EXPECT_GT(a.head<2>().dot(out) + g * out.y(), 0) << "the sphere would have to pull";
-      if (k > 0) EXPECT_NEAR(r * v.z(), v.head<2>().dot(along), 1e-13);
+      EXPECT_NEAR(r * v.z(), k > 0 ? v.head<2>().dot(along) : 0, 1e-13);
     }
     const double end = motion.leaving_time();
     const Eigen::Vector3d v = speed(end), p = place(end);
@@ -103,7 +103,9 @@ TEST(FallingLadder, SatisfiesNewtonsLawsAndKeepsItsEnergy) {
     const Eigen::Vector2d up(-std::sin(p.z()), std::cos(p.z())), across(std::cos(p.z()), std::sin(p.z()));
     const Eigen::Vector2d foot = -L / 2 * up - d / 2 * across, head = L / 2 * up - d / 2 * across;
     EXPECT_NEAR(p.y() + foot.y(), 0, 1e-13) << "the foot leaves the ground";
-    if (t < ladder.leaving_time()) EXPECT_NEAR(p.x() + head.x(), 0, 1e-13) << "the head leaves the wall";
+    if (t < ladder.leaving_time()) {
+      EXPECT_NEAR(p.x() + head.x(), 0, 1e-13) << "the head leaves the wall";
+    }
     // Falling is a turn against the right hand about -y: its moment is -(r x F).
     EXPECT_NEAR(inertia * a.z(), -(foot.x() * bears) + head.y() * push, 1e-9) << t;
   }
