@@ -8,6 +8,7 @@
 #include "plumbline/core/exact/torque_free_top.hpp"
 #include "solution_collision.hpp"
 #include "solution_contact.hpp"
+#include "solution_linkage.hpp"
 
 namespace plumbline {
 namespace {
@@ -123,6 +124,9 @@ const std::vector<Solution>& solutions() {
       {"falling_ladder", "the equation of the ladder's angle, integrated; Kapranidis and Koo, CMJ 39 (2008) 374",
        solve_falling_ladder},
       {"curling_disc", "Farkas, Bartels, Unger and Wolf, Physical Review Letters 90 (2003) 248302", solve_curling_disc},
+      {"turning_linkage",
+       "the equation of the one angle is a pendulum's; Landau and Lifshitz, section 11; Jacobi's elliptic functions",
+       solve_turning_linkage},
   };
   return kTable;
 }

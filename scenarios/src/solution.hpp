@@ -18,7 +18,7 @@ struct Solution {
   std::shared_ptr<const Reference> (*solve)(const Scenario& scenario, std::string citation);
 };
 
-// The whole table: torque_free_rotation, planar_pendulum.
+// The whole table.
 const std::vector<Solution>& solutions();
 
 }  // namespace plumbline
