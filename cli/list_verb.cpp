@@ -2,11 +2,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "inventory.hpp"
+#include "plumbline/core/feature.hpp"
 #include "selection.hpp"
 #include "usage_error.hpp"
 #include "verbs.hpp"
@@ -57,6 +60,36 @@ nlohmann::json settings_json(const EngineInfo& info) {
   return rows;
 }
 
+// The first tier that runs any case of it.
+std::string_view tier_of(const ScenarioSummary& summary, const ScenarioInventory& scenarios) {
+  Tier least = Tier::kFull;
+  for (const CaseInput& c : scenarios.cases) {
+    if (c.scenario.id == summary.id) least = std::min(least, c.scenario.tier);
+  }
+  return tier_name(least);
+}
+
+// What a row can run of the cases, and what keeps it from the others: the missing features with their counts.
+struct Reach {
+  std::size_t runs = 0;
+  std::map<std::string, std::size_t> missing;
+};
+
+Reach reach_of(const EngineInfo& engine, const std::vector<CaseInput>& cases) {
+  Reach reach;
+  for (const CaseInput& c : cases) {
+    const std::string lacking = needs(c.scenario).without(engine.features).describe();
+    ++(lacking.empty() ? reach.runs : reach.missing[lacking]);
+  }
+  return reach;
+}
+
+nlohmann::json reach_json(const Reach& reach) {
+  nlohmann::json unsupported = nlohmann::json::array();
+  for (const auto& [lacking, count] : reach.missing) unsupported.push_back({{"missing", lacking}, {"cases", count}});
+  return {{"cases", reach.runs}, {"unsupported", unsupported}};
+}
+
 nlohmann::json listing(const ScenarioInventory& scenarios, const EngineInventory& engines) {
   nlohmann::json json{{"scenarios", nlohmann::json::array()}, {"engines", nlohmann::json::array()}};
   for (const ScenarioSummary& s : scenarios.summaries) {
@@ -65,6 +98,7 @@ nlohmann::json listing(const ScenarioInventory& scenarios, const EngineInventory
                                  {"source", s.source},
                                  {"cases", s.cases},
                                  {"dt", s.steps},
+                                 {"tier", tier_of(s, scenarios)},
                                  {"reference", s.reference_kind}});
   }
   for (const EngineRow& row : engines.rows) {
@@ -74,26 +108,53 @@ nlohmann::json listing(const ScenarioInventory& scenarios, const EngineInventory
                                {"precision", row.info.precision == Precision::kSingle ? "single" : "double"},
                                {"dimension", row.info.dimension},
                                {"scheme", row.info.scheme},
+                               {"runs", reach_json(reach_of(row.info, scenarios.cases))},
                                {"settings", settings_json(row.info)}});
   }
   return json;
 }
 
-void print(const ScenarioInventory& scenarios, const EngineInventory& engines) {
-  fmt::print("Scenarios\n");
+// Cases by the values that tell them apart; the id stands above them.
+std::string values_of(const std::string& case_name, const std::string& id) {
+  return case_name.size() > id.size() ? case_name.substr(id.size() + 1) : "";
+}
+
+void print_scenarios(const ScenarioInventory& scenarios) {
+  std::size_t cases = 0;
+  std::string family;
   for (const ScenarioSummary& s : scenarios.summaries) {
-    fmt::print("  {:<26} {}\n", s.id, s.about);
-    if (s.cases.size() > 1) {
-      for (const std::string& name : s.cases) fmt::print("  {:<26}   {}\n", "", name);
+    cases += s.cases.size();
+    if (const std::string here = s.id.substr(0, s.id.find('/')); here != family) {
+      family = here;
+      fmt::print("\n{}\n", family);
     }
+    fmt::print("  {:<32} {:<11} {:<8} {}\n", s.id, s.reference_kind, tier_of(s, scenarios), s.about);
+    std::string line;
+    for (const std::string& name : s.cases) {
+      const std::string values = values_of(name, s.id);
+      if (values.empty()) continue;
+      if (line.size() + values.size() > 84) {
+        fmt::print("{:>36}{}\n", "", line);
+        line.clear();
+      }
+      line += (line.empty() ? "" : "  ") + values;
+    }
+    if (!line.empty()) fmt::print("{:>36}{}\n", "", line);
   }
+  fmt::print("\n{} scenarios, {} cases; reference and first tier beside each.\n", scenarios.summaries.size(), cases);
+}
+
+void print_engines(const ScenarioInventory& scenarios, const EngineInventory& engines) {
   fmt::print("\nEngines\n");
   for (const EngineRow& row : engines.rows) {
     const EngineInfo& e = row.info;
-    fmt::print("  {:<16} {} {}, {}D, {} precision, {}\n", e.name, e.library, e.version, e.dimension,
+    fmt::print("  {:<18} {} {}, {}D, {} precision, {}\n", e.name, e.library, e.version, e.dimension,
                e.precision == Precision::kSingle ? "single" : "double", e.scheme);
+    const Reach reach = reach_of(e, scenarios.cases);
+    fmt::print("  {:<18}   runs {} of {} cases\n", "", reach.runs, scenarios.cases.size());
+    for (const auto& [lacking, count] : reach.missing) fmt::print("  {:<18}   {} need {}\n", "", count, lacking);
   }
-  for (const MissingEngine& m : engines.missing) fmt::print("  {:<16} left out: {}\n", m.name, m.reason);
+  for (const MissingEngine& m : engines.missing) fmt::print("  {:<18} left out: {}\n", m.name, m.reason);
 }
 
 int list(const ListOptions& options) {
@@ -106,13 +167,15 @@ int list(const ListOptions& options) {
     std::erase_if(s.cases, [&](const std::string& name) { return !selected(name); });
   }
   std::erase_if(scenarios.summaries, [](const ScenarioSummary& s) { return s.cases.empty(); });
+  std::erase_if(scenarios.cases, [&](const CaseInput& c) { return !selected(c.scenario.case_name()); });
   if (options.json) {
     fmt::print("{}\n", listing(scenarios, engines).dump(2));
   } else if (options.settings) {
     print_settings(engines);
     return kExitPass;
   } else {
-    print(scenarios, engines);
+    print_scenarios(scenarios);
+    print_engines(scenarios, engines);
   }
   return scenarios.summaries.empty() ? kExitNothingMatched : kExitPass;
 }

@@ -30,7 +30,6 @@ constexpr void (*kVerbs[])(CLI::App&, plumbline::Action&) = {
     plumbline::add_run_verb,     plumbline::add_list_verb,    plumbline::add_compare_verb, plumbline::add_doctor_verb,
     plumbline::add_adapter_verb, plumbline::add_certify_verb, plumbline::add_export_verb,  plumbline::add_import_verb};
 
-
 }  // namespace
 
 int main(int argc, char** argv) {
