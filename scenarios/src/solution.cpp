@@ -2,39 +2,28 @@
 
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
+#include "named_solution.hpp"
 #include "plumbline/core/exact/planar_pendulum.hpp"
 #include "plumbline/core/exact/torque_free_top.hpp"
 #include "solution_collision.hpp"
 #include "solution_contact.hpp"
 #include "solution_linkage.hpp"
+#include "solution_particle.hpp"
+#include "solution_rotation.hpp"
 
 namespace plumbline {
 namespace {
 
-class NamedSolution : public Reference {
- public:
-  explicit NamedSolution(std::string citation) : citation_(std::move(citation)) {}
-  std::string_view citation() const override { return citation_; }
-  std::string_view kind() const override { return "solution"; }
-  std::string_view bound_source() const override {
-    return "rounding of the solution's own steps, magnified as the motion magnifies it";
-  }
-
- private:
-  std::string citation_;
-};
-
-[[noreturn]] void refuse(const char* why) { throw std::invalid_argument(why); }
-
-// Bodies on their own: each one a free top whose centre of mass moves on uniformly.
+// Bodies on their own: each one a free top, which gravity does not turn; its centre of mass moves on uniformly or
+// on a parabola.
 class TorqueFreeRotation final : public NamedSolution {
  public:
   TorqueFreeRotation(const Scenario& scenario, std::string citation) : NamedSolution(std::move(citation)) {
-    if (!scenario.forces.empty() || !scenario.joints.empty() || scenario.contact || !scenario.gravity.isZero(0)) {
-      refuse("nothing may act on the bodies: no force, joint, contact or gravity");
+    if (!scenario.forces.empty() || !scenario.joints.empty() || !scenario.springs.empty() || scenario.contact) {
+      refuse("nothing but gravity may act on the bodies: no force, joint, spring or contact");
     }
+    gravity_W_ = scenario.gravity;
     for (const Body& body : scenario.bodies) {
       if (body.fixed) refuse("every body must move");
       tops_.emplace_back(body.inertia, body.initial);
@@ -43,11 +32,17 @@ class TorqueFreeRotation final : public NamedSolution {
       uncertainty_ = std::max(uncertainty_, 8e-16 * turned / (1 - tops_.back().parameter()));
     }
   }
-  BodyState at(std::size_t body, double t) const override { return tops_[body].at(t); }
+  BodyState at(std::size_t body, double t) const override {
+    BodyState state = tops_[body].at(t);
+    state.p_WB += 0.5 * t * t * gravity_W_;
+    state.v_WB += t * gravity_W_;
+    return state;
+  }
   double uncertainty() const override { return uncertainty_; }
 
  private:
   std::vector<TorqueFreeTop> tops_;
+  Vec3 gravity_W_ = Vec3::Zero();
   double uncertainty_ = 0;
 };
 
@@ -101,11 +96,6 @@ class PendulumOnHinge final : public NamedSolution {
   std::optional<PlanarPendulum> pendulum_;
 };
 
-template <typename Kind>
-std::shared_ptr<const Reference> solved_by(const Scenario& scenario, std::string citation) {
-  return std::make_shared<Kind>(scenario, std::move(citation));
-}
-
 }  // namespace
 
 const std::vector<Solution>& solutions() {
@@ -127,6 +117,10 @@ const std::vector<Solution>& solutions() {
       {"turning_linkage",
        "the equation of the one angle is a pendulum's; Landau and Lifshitz, section 11; Jacobi's elliptic functions",
        solve_turning_linkage},
+      {"kepler_orbit", "two-body motion by Kepler's equation; Bate, Mueller and White, Astrodynamics, chapter 4",
+       solve_kepler_orbit},
+      {"heavy_top", "Lagrange's top by elliptic integrals; Klein and Sommerfeld, Theory of the Top, volume 2",
+       solve_heavy_top},
   };
   return kTable;
 }

@@ -112,12 +112,15 @@ TEST(JointReader, SaysWhatIsWrongAndTheWayOut) {
 }
 
 TEST(NamedSolution, RefusesAScenarioThatItDoesNotSolve) {
-  EXPECT_EQ(fault(with("planar_pendulum", "planar_pendulums")),
-            "f.toml:17:12: /reference/solution: unknown solution 'planar_pendulums'; did you mean 'planar_pendulum'? "
-            "known: torque_free_rotation, planar_pendulum");
+  // The list goes on with whatever solutions there are.
+  const std::string unknown = fault(with("planar_pendulum", "planar_pendulums"));
+  EXPECT_TRUE(
+      unknown.starts_with("f.toml:17:12: /reference/solution: unknown solution 'planar_pendulums'; did you "
+                          "mean 'planar_pendulum'? known: torque_free_rotation, planar_pendulum"))
+      << unknown;
   EXPECT_EQ(fault(with("planar_pendulum", "torque_free_rotation")),
-            "f.toml:17:12: /reference/solution: torque_free_rotation does not solve this scenario: nothing may act on "
-            "the bodies: no force, joint, contact or gravity");
+            "f.toml:17:12: /reference/solution: torque_free_rotation does not solve this scenario: nothing but gravity "
+            "may act on the bodies: no force, joint, spring or contact");
   EXPECT_EQ(fault(with("[0, 2, 0]", "[0, 2, 1]")),
             "f.toml:17:12: /reference/solution: planar_pendulum does not solve this scenario: the hinge's axis must be "
             "at right angles to gravity");

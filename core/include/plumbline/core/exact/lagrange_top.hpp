@@ -57,6 +57,7 @@ class LagrangeTop {
   double lowest_cosine() const { return lowest_cosine_; }    // u1
   double highest_cosine() const { return highest_cosine_; }  // u2
   double spin() const { return w3_; }                        // w3, a constant of the motion [rad/s]
+  double parameter() const { return modulus_.m; }            // m, near 1 where rounding grows
   const Vec3& pivot_W() const { return pivot_W_; }
 
  private:
