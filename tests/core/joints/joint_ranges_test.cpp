@@ -9,6 +9,7 @@
 #include "plumbline/core/exact/planar_pendulum.hpp"
 #include "plumbline/core/integration/adaptive_stepper.hpp"
 #include "plumbline/core/integration/runge_kutta_4.hpp"
+#include "plumbline/core/joints/joint_projection.hpp"
 #include "plumbline/core/joints/rigid_doll.hpp"
 #include "plumbline/core/metric.hpp"
 
@@ -80,6 +81,30 @@ TEST(JointRange, HoldsWhatLeansOnItAndLetsGoWhatDoesNot) {
   rod.gravity_W *= -1;  // now it is lifted off, with m g d/(I + m d^2)
   for (int k = 0; k < 10; ++k) advance_within_ranges(rod, stepper, 0.001 * k, 0.001, states);
   EXPECT_NEAR(states[0].w_WB.norm(), 9.81 / 0.7 * 0.01, 1e-7);
+}
+
+// Held coordinates go onto the nearer limit from either side of it, and stand still there; others are left alone.
+TEST(JointRange, IsPutBackOntoTheNearerLimitWhereItIsHeld) {
+  const std::size_t first[] = {0};
+  for (const double off : {1e-4, -1e-4}) {
+    for (const double limit : {-0.4, 0.7}) {
+      ArticulatedBody chain = planar_chain({1, 1}, {0.5, 0.5}, {1, 1}, {0.2, 0.1});
+      chain.joints[0].range = JointRange{-0.4, 0.7};
+      chain.joints[1].range = JointRange{-0.1, 0.1};  // beyond it from the start, and not held
+      const double angle = limit + off, beyond = 0.3;
+      const Quat turned = rotation_by(-angle * Vec3::UnitY());
+      const Quat bent = rotation_by(-(angle + beyond) * Vec3::UnitY());
+      std::vector<BodyState> states(2);
+      states[0] = {turned * Vec3(0, 0, -0.5), turned, Vec3(0.3, 0, 0.1), Vec3(0, 0.2, 0)};
+      states[1] = {turned * Vec3(0, 0, -1) + bent * Vec3(0, 0, -0.5), bent, Vec3(0, 0, 0.4), Vec3(0, -0.7, 0)};
+      EXPECT_LE(project_positions_held(chain, states, first).error, 1e-13);
+      project_velocities(chain, states, first);
+      EXPECT_NEAR(coordinate_row(chain.joints[0], states).error, limit, 1e-13);
+      EXPECT_NEAR(rate(coordinate_row(chain.joints[0], states), states), 0, 100 * kEps);
+      EXPECT_NEAR(coordinate_row(chain.joints[1], states).error, beyond, 10 * std::abs(off));
+      EXPECT_GT(std::abs(rate(coordinate_row(chain.joints[1], states), states)), 0.01);
+    }
+  }
 }
 
 // An impulse at a limb that already leans on its limit passes on to the trunk as if the joint were stiff.
