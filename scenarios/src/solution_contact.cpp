@@ -29,9 +29,7 @@ class ContactSolution : public Reference {
   std::string_view kind() const override { return "solution"; }
   std::string_view bound_source() const override { return bound_source_; }
   double uncertainty() const override { return uncertainty_; }
-  BodyState at(std::size_t body, double t) const override {
-    return body == moving_ ? moved(t) : bodies_[body].initial;
-  }
+  BodyState at(std::size_t body, double t) const override { return body == moving_ ? moved(t) : bodies_[body].initial; }
 
  protected:
   virtual BodyState moved(double t) const = 0;
@@ -93,8 +91,8 @@ class BallLeavesBall final : public ContactSolution {
     motion_.emplace(path, small->radius, inertia, g, angle, 0.0);
     // exact/planar_pendulum.hpp: k^2 = cos^2(angle/2), and the growth itself.
     const double w0 = std::sqrt(g / path);
-    uncertainty_ = 8e-16 * (1 + w0 * scenario.duration) / std::pow(std::sin(angle / 2), 2) *
-                   (1 + path / scenario.scales.length);
+    uncertainty_ =
+        8e-16 * (1 + w0 * scenario.duration) / std::pow(std::sin(angle / 2), 2) * (1 + path / scenario.scales.length);
     if (inertia > 0) {
       uncertainty_ += motion_->slip_bound(mu) * scenario.duration / scenario.scales.length;
       bound_source_ = "the slip just before it leaves, where no friction is enough for rolling";
@@ -115,11 +113,10 @@ class LadderFalls final : public ContactSolution {
   LadderFalls(const Scenario& scenario, std::string citation) : ContactSolution(scenario, std::move(citation)) {
     const Body& ladder = find_moving();
     const auto* box = std::get_if<Box>(&ladder.shape);
-    const bool corner = bodies_.size() == 3 && box != nullptr && scenario.contact->friction == 0 &&
-                        std::count_if(bodies_.begin(), bodies_.end(),
-                                      [](const Body& b) { return faces(b, Vec3::UnitX()); }) == 1 &&
-                        std::count_if(bodies_.begin(), bodies_.end(),
-                                      [](const Body& b) { return faces(b, Vec3::UnitZ()); }) == 1;
+    const bool corner =
+        bodies_.size() == 3 && box != nullptr && scenario.contact->friction == 0 &&
+        std::count_if(bodies_.begin(), bodies_.end(), [](const Body& b) { return faces(b, Vec3::UnitX()); }) == 1 &&
+        std::count_if(bodies_.begin(), bodies_.end(), [](const Body& b) { return faces(b, Vec3::UnitZ()); }) == 1;
     if (!corner) not_for("it takes a box, the half-spaces z <= 0 and x <= 0, and no friction");
     const BodyState& start = ladder.initial;
     angle_ = -2 * std::atan2(start.q_WB.y(), start.q_WB.w());

@@ -87,7 +87,8 @@ CurlingDisc::State CurlingDisc::advance(const State& y, double by) const {
 DiscState CurlingDisc::at(double t) const {
   if (!(t >= 0)) throw std::invalid_argument("the motion starts at t = 0");
   if (t >= stop_time_) return {nodes_.back()(3), 0, nodes_.back()(4), 0};
-  const auto next = std::upper_bound(nodes_.begin(), nodes_.end(), t, [](double x, const State& y) { return x < y(2); });
+  const auto next =
+      std::upper_bound(nodes_.begin(), nodes_.end(), t, [](double x, const State& y) { return x < y(2); });
   const State& node = *(next - 1);
   // t rises with s, at R w/(mu g): Newton's iteration, kept within the interval.
   double by = 0, low = 0, high = kInterval;

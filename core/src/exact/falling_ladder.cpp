@@ -60,8 +60,7 @@ FallingLadder::State FallingLadder::rates(const State& y, bool at_wall) const {
   const double x_bend = -reach_ * std::sin(y(0) + delta_), z_bend = -reach_ * std::cos(y(0) - delta_);
   const double wall = at_wall ? 1 : 0, square = y(1) * y(1);
   const double mass = wall * x_theta * x_theta + z_theta * z_theta + inertia_;
-  const double turn =
-      -(gravity_ * z_theta + (wall * x_theta * x_bend + z_theta * z_bend) * square) / mass;
+  const double turn = -(gravity_ * z_theta + (wall * x_theta * x_bend + z_theta * z_bend) * square) / mass;
   return {y(1), turn, y(3), wall * (x_theta * turn + x_bend * square)};
 }
 

@@ -28,8 +28,8 @@ double disc_friction_force(double e);
 double disc_friction_moment(double e);
 
 struct DiscState {
-  double way = 0, speed = 0;   // [m], [m/s]
-  double turn = 0, spin = 0;   // [rad], [rad/s]
+  double way = 0, speed = 0;  // [m], [m/s]
+  double turn = 0, spin = 0;  // [rad], [rad/s]
 };
 
 class CurlingDisc {
@@ -40,7 +40,7 @@ class CurlingDisc {
 
   DiscState at(double t) const;  // t >= 0 [s]
   double stop_time() const { return stop_time_; }
-  double final_ratio() const;    // of speed over R spin, just before the end
+  double final_ratio() const;  // of speed over R spin, just before the end
 
  private:
   // ln(R w), e, t, way, angle, and a zero that makes the number of components even.

@@ -20,9 +20,9 @@
 namespace plumbline {
 
 struct LeavingState {
-  double across = 0, up = 0;            // centre, from that of the fixed ball [m]
-  double v_across = 0, v_up = 0;        // [m/s]
-  double turn = 0, spin = 0;            // of the body, forwards [rad], [rad/s]; 0 unless it rolls
+  double across = 0, up = 0;      // centre, from that of the fixed ball [m]
+  double v_across = 0, v_up = 0;  // [m/s]
+  double turn = 0, spin = 0;      // of the body, forwards [rad], [rad/s]; 0 unless it rolls
 };
 
 class LeavingSphere {
