@@ -109,8 +109,8 @@ TEST(FallingLadder, SatisfiesNewtonsLawsAndKeepsItsEnergy) {
     if (t < ladder.leaving_time()) {
       EXPECT_NEAR(p.x() + head.x(), 0, 1e-13) << "the head leaves the wall";
     }
-    // Falling is a turn against the right hand about -y: its moment is -(r x F).
-    EXPECT_NEAR(inertia * a.z(), -(foot.x() * bears) + head.y() * push, 1e-9) << t;
+    // Falling is a turn about -y: its moment is that of -(r x F) about y, r_x F_z - r_z F_x.
+    EXPECT_NEAR(inertia * a.z(), foot.x() * bears - head.y() * push, 1e-9) << t;
   }
   EXPECT_THROW(FallingLadder(2, 0, 1.0 / 3, 9.81, 0.4, 5), std::invalid_argument);
   EXPECT_THROW(FallingLadder(2, 0, 1.0 / 3, 9.81, 0, 1), std::invalid_argument);
