@@ -11,10 +11,11 @@ namespace {
 
 [[noreturn]] void raise(const char* message) { throw std::invalid_argument(std::string("MuJoCo: ") + message); }
 
-// MuJoCo's messages end in "..., line 12, column 4".
+// MuJoCo's messages end in "..., line 12, column 4" or "..., line = 12, column = 4".
 int line_in(const std::string& message) {
   const std::size_t at = message.rfind("line ");
-  return at == std::string::npos ? 0 : std::atoi(message.c_str() + at + 5);
+  const std::size_t number = at == std::string::npos ? at : message.find_first_of("0123456789", at);
+  return number == std::string::npos ? 0 : std::atoi(message.c_str() + number);
 }
 
 }  // namespace

@@ -50,7 +50,8 @@ class MjcfReader {
       link.com = {model_.vec(d_.xipos, b), Quat(axes).normalized()};
       if (!link.fixed) set_velocity(b, link);
       draft_.links.push_back(std::move(link));
-      if (m_.body_mocapid[b] >= 0) lose("body '" + body_name(b) + "' is moved from outside (mocap)");
+      if (m_.body_mocapid[b] >= 0)
+        note("body '" + body_name(b) + "' stands still: what moves it from outside (mocap) is not in the file");
     }
     DraftLink& link = draft_.links[link_of_[at(b)]];
     for (int g = m_.body_geomadr[b]; g >= 0 && g < m_.body_geomadr[b] + m_.body_geomnum[b]; ++g) {

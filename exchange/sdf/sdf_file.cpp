@@ -122,6 +122,7 @@ SdfFile load_sdf(const ImportRequest& request, WorldDraft& draft) {
   const bool something = file.root.WorldCount() > 0 || file.root.Model() != nullptr;
   std::string all;
   for (const sdf::Error& error : errors) {
+    if (all.find(told(error, request.file)) != all.npos) continue;  // it says some things twice
     all += (all.empty() ? "" : "\n") + told(error, request.file);
     draft.losses.push_back(told(error, request.file));
   }

@@ -122,16 +122,16 @@ class MovingBody {
     body.shape = *shape->shape;
     const double off = (shape->at.p_WF - body.initial.p_WB).norm();
     if (off > kCentred * size_of(body.shape)) {
-      const std::string text = told(*shape) + " is " + shortest(off) + " m away from the centre of mass";
+      const std::string text = "has its " + told(*shape) + " " + shortest(off) + " m away from the centre of mass; ";
       if (needed) {
-        lose(": its " + text + "; a scenario's shapes are centred in it: move the one or the other");
+        lose(text + "a scenario's shapes are centred in it: move the one or the other");
       } else {
-        note(": its " + text + "; nothing collides, so it is drawn there");
+        note(text + "nothing collides, so it is drawn there");
       }
     }
     const bool along =
         geodesic_angle(body.initial.q_WB, shape->at.q_WF) < kCentred || std::holds_alternative<Sphere>(body.shape);
-    if (!along && needed) lose(": its " + told(*shape) + " does not lie along the principal axes of its inertia");
+    if (!along && needed) lose("has its " + told(*shape) + " out of line with the principal axes of its inertia");
   }
 
   const DraftLink& link_;

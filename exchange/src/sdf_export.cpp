@@ -132,11 +132,20 @@ class SdfWriter {
     add_shape(link, body.shape);
   }
 
+  // Links and joints of a model share their names.
+  std::string name_of(const Joint& joint) {
+    const auto has_name = [&](const Body& body) { return body.name == joint.name; };
+    if (std::none_of(scenario_.bodies.begin(), scenario_.bodies.end(), has_name)) return joint.name;
+    losses_.push_back("name of joint " + quoted(joint.name) + ": a body has it; written as " +
+                      quoted(joint.name + " joint"));
+    return joint.name + " joint";
+  }
+
   // The pose of a joint is stated in its child, and its axis in that frame.
   void add_joint(Xml& model, std::size_t k) {
     const Joint& j = scenario_.joints[k];
     Xml& joint = child(model, "joint");
-    set(joint, "name", j.name);
+    set(joint, "name", name_of(j));
     set(joint, "type", type_of(j));
     child(joint, "parent", j.a == kWorld ? "world" : scenario_.bodies[j.a].name);
     child(joint, "child", scenario_.bodies[j.b].name);

@@ -9,6 +9,8 @@
 namespace plumbline {
 namespace {
 
+constexpr std::size_t kNamed = 10;  // of a kind: a cloth has thousands of pairs
+
 class Assembly {
  public:
   explicit Assembly(const WorldDraft& draft) : draft_(draft) {
@@ -118,33 +120,46 @@ class Assembly {
     if (draft_.contacts.empty()) return;
     const ContactMaterial& law = draft_.contacts.front().material;
     world_.scenario.contact = law;
-    std::vector<std::vector<bool>> collide(draft_.links.size(), std::vector<bool>(draft_.links.size(), false));
-    for (const DraftContact& c : draft_.contacts) {
-      collide[c.a][c.b] = collide[c.b][c.a] = true;
-      if (c.material.friction != law.friction || c.material.restitution != law.restitution) {
-        world_.losses.push_back("contact of '" + draft_.links[c.a].name + "' with '" + draft_.links[c.b].name +
-                                "' has friction " + shortest(c.material.friction) + " and restitution " +
-                                shortest(c.material.restitution) + "; a scenario has one law for all pairs, here " +
-                                shortest(law.friction) + " and " + shortest(law.restitution));
-      }
-    }
     if (!(law.friction >= 0 && law.restitution >= 0 && law.restitution <= 1)) {
       world_.losses.push_back("contact law out of range: friction " + shortest(law.friction) + ", restitution " +
                               shortest(law.restitution));
       world_.scenario.contact = ContactMaterial{};
     }
+    std::vector<std::vector<bool>> collide(draft_.links.size(), std::vector<bool>(draft_.links.size(), false));
+    std::vector<std::string> laws, pairs;
+    for (const DraftContact& c : draft_.contacts) {
+      collide[c.a][c.b] = collide[c.b][c.a] = true;
+      if (c.material.friction == law.friction && c.material.restitution == law.restitution) continue;
+      laws.push_back("contact of '" + draft_.links[c.a].name + "' with '" + draft_.links[c.b].name + "' has friction " +
+                     shortest(c.material.friction) + " and restitution " + shortest(c.material.restitution) +
+                     "; a scenario has one law for all pairs, here " + shortest(law.friction) + " and " +
+                     shortest(law.restitution));
+    }
     for (std::size_t i = 0; i < draft_.links.size(); ++i) {
-      for (std::size_t j = i + 1; j < draft_.links.size(); ++j) compare(i, j, collide[i][j]);
+      for (std::size_t j = i + 1; j < draft_.links.size(); ++j) {
+        std::string difference = pair_difference(i, j, collide[i][j]);
+        if (!difference.empty()) pairs.push_back(std::move(difference));
+      }
+    }
+    lose_some(laws);
+    lose_some(pairs);
+  }
+  void lose_some(const std::vector<std::string>& all) {
+    for (std::size_t i = 0; i < std::min(all.size(), kNamed); ++i) world_.losses.push_back(all[i]);
+    if (all.size() > kNamed) {
+      world_.losses.push_back("and of " + std::to_string(all.size() - kNamed) + " further pairs the same can be said");
     }
   }
-  void compare(std::size_t i, std::size_t j, bool in_file) {
+
+  // Where the file and a scenario differ about this pair; empty where they agree.
+  std::string pair_difference(std::size_t i, std::size_t j, bool in_file) const {
     const DraftLink &a = draft_.links[i], &b = draft_.links[j];
-    if ((a.fixed && b.fixed) || places_[i].empty() || places_[j].empty()) return;
+    if ((a.fixed && b.fixed) || places_[i].empty() || places_[j].empty()) return "";
     const bool here = !joined(world_.scenario, places_[i].front(), places_[j].front());
-    if (here == in_file) return;
-    world_.losses.push_back("'" + a.name + "' and '" + b.name + "' " +
-                            (in_file ? "collide although a joint ties them, which they do not in a scenario"
-                                     : "do not collide in the file; in a scenario all bodies do that no joint ties"));
+    if (here == in_file) return "";
+    return "'" + a.name + "' and '" + b.name + "' " +
+           (in_file ? "collide although a joint ties them, which they do not in a scenario"
+                    : "do not collide in the file; in a scenario all bodies do that no joint ties");
   }
 
   void set_scales() {

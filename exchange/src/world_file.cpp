@@ -5,13 +5,6 @@
 #include <stdexcept>
 
 namespace plumbline {
-namespace {
-
-// The second line of tinyxml2's message repeats what stands in the first.
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-}  // namespace
-
 std::string at_line(const std::filesystem::path& file, int line, const std::string& text) {
   return file.string() + (line > 0 ? ":" + std::to_string(line) : "") + ": " + text;
 }
@@ -20,9 +13,8 @@ WorldFormat format_of_world_file(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) throw std::invalid_argument(file.string() + ": no such file");
   tinyxml2::XMLDocument document;
   if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS) {
-    const char* const text = document.ErrorStr();
-    throw std::invalid_argument(at_line(
-        file, document.ErrorLineNum(), "is not well-formed XML: " + first_line(text != nullptr ? text : "unreadable")));
+    throw std::invalid_argument(
+        at_line(file, document.ErrorLineNum(), std::string("is not well-formed XML: ") + document.ErrorName()));
   }
   const tinyxml2::XMLElement* const root = document.RootElement();
   const std::string tag = root != nullptr ? root->Name() : "";

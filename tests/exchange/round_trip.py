@@ -1,0 +1,104 @@
+"""A scenario, exported and imported again, must give the same run on every engine.
+
+round_trip.py PROGRAM SOURCE FORMAT FOLDER
+
+Both scenarios go to the same engines with the same step, and the trajectories are compared body by body. What may differ:
+the files hold the scenario's own doubles, but poses are composed anew on the way, which rounds a few times: 1e-16 of the
+size of the scene. A motion carries that on; a turn that grows or a contact that acts a bit later multiplies it by
+hundreds, an iterative solver that stops elsewhere by more. TOLERANCE leaves it a factor of ten million. What the test is
+after is of another size: a sign, a frame, an inertia, half a length in place of a whole one shows in the first digits.
+"""
+import csv
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+
+TOLERANCE = 1e-9  # of the length scale, of the velocity scale, and in attitude [rad]
+LEAST_MOTION = 1e-3  # of the length scale: a world in which nothing moves proves nothing
+
+CASES = [  # name of the case or file, parameters, dt, scales of length and time
+    ("collision/two_sphere", ["e=0.5", "b=0.48"], "0.01", 0.8, 0.27),
+    ("joint/pendulum", [], "0.005", 1.0, 0.32),
+    ("rotation/free_rotation", [], "0.005", 0.9, 0.2),
+    ("friction/incline", ["mu=0.2"], "0.01", 1.0, 0.32),
+    ("tests/exchange/double_swing.toml", [], "0.005", 1.0, 0.3),
+]
+
+
+def run(program, *arguments, codes=(0,)):
+    done = subprocess.run([program, *arguments], capture_output=True, text=True, timeout=600)
+    if done.returncode not in codes:
+        sys.exit(f"plumbline {' '.join(arguments)}: exit code {done.returncode}\n{done.stdout}\n{done.stderr}")
+    return done
+
+
+def trajectories(folder):
+    """{engine file: {body: [(t, 13 numbers)]}}"""
+    result = {}
+    for path in sorted((folder / "trajectories").rglob("*.csv")):
+        bodies = {}
+        with open(path, newline="") as file:
+            for row in csv.DictReader(file):
+                numbers = [float(row[k]) for k in "x y z qw qx qy qz vx vy vz wx wy wz".split()]
+                bodies.setdefault(row["body"], []).append((float(row["t"]), numbers))
+        result[path.name] = bodies
+    return result
+
+
+def angle(a, b):
+    """Between two attitudes; q and -q are the same one."""
+    sign = 1 if sum(x * y for x, y in zip(a, b)) >= 0 else -1
+    return 2 * math.dist(a, [sign * x for x in b])
+
+
+def difference(a, b, length, time):
+    return max(math.dist(a[0:3], b[0:3]) / length, angle(a[3:7], b[3:7]),
+               math.dist(a[7:10], b[7:10]) * time / length, math.dist(a[10:13], b[10:13]) * time)
+
+
+def compare(before, after, length, time):
+    """Returns the largest difference; ends the test where one is too large."""
+    if not before or before.keys() != after.keys():
+        sys.exit(f"engines differ: {sorted(before)} and {sorted(after)}")
+    worst = 0.0
+    for engine, bodies in before.items():
+        if bodies.keys() != after[engine].keys():
+            sys.exit(f"{engine}: bodies differ: {sorted(bodies)} and {sorted(after[engine])}")
+        moved = 0.0
+        for body, samples in bodies.items():
+            others = after[engine][body]
+            if len(samples) != len(others) or len(samples) < 10:
+                sys.exit(f"{engine}, {body}: {len(samples)} samples and {len(others)}")
+            for (t, a), (u, b) in zip(samples, others):
+                found = difference(a, b, length, time)
+                if t != u or not found <= TOLERANCE:
+                    sys.exit(f"{engine}, {body} at t = {t}: {found}\n  {a}\n  {b}")
+                worst = max(worst, found)
+            moved = max(moved, difference(samples[0][1], samples[-1][1], length, time))
+        if not moved > LEAST_MOTION:
+            sys.exit(f"{engine}: nothing moves")
+    return worst
+
+
+def main():
+    program, source, form, folder = sys.argv[1], *map(pathlib.Path, sys.argv[2:3]), sys.argv[3], pathlib.Path(sys.argv[4])
+    shutil.rmtree(folder, ignore_errors=True)
+    for name, parameters, dt, length, time in CASES:
+        here = folder / name.replace("/", "_")
+        here.mkdir(parents=True)
+        given = [word for p in parameters for word in ("-P", p)]
+        path = str(source / name) if name.endswith(".toml") else str(source / "scenarios" / (name + ".toml"))
+        world, back = str(here / ("world." + form)), str(here / "back.toml")
+        run(program, "export", path, "--as", form, "-o", world, *given)
+        run(program, "import", world, "-o", back)
+        # A gate that an engine misses is not this test's business.
+        common = ["--profile", "matched", "--dt", dt, "--no-conformance", "-q"]
+        run(program, "run", path, *given, *common, "-o", str(here / "before"), codes=(0, 1))
+        run(program, "run", back, *common, "-o", str(here / "after"), codes=(0, 1))
+        before, after = trajectories(here / "before"), trajectories(here / "after")
+        print(f"{name}: {len(before)} rows, largest difference {compare(before, after, length, time):.2g}")
+
+
+main()

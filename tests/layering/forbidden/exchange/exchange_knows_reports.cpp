@@ -1,0 +1,1 @@
+#include "plumbline/reports/console.hpp"
