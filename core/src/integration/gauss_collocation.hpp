@@ -49,7 +49,7 @@ class GaussCollocation {
   };
 
   void advance();
-  Attempt attempt(Real h);
+  Attempt attempt(Real h, bool stride);
   void guess(Real h);
   Real truncation(Real h) const;
   void evaluate(const Step& step, Real t, Column& x, Column& u) const;
