@@ -63,7 +63,7 @@ void read_shapes(const sdf::Link& link, SdfLink& result, DraftLink& draft) {
   for (std::uint64_t i = 0; i < link.CollisionCount(); ++i) {
     const sdf::Collision& collision = *link.CollisionByIndex(i);
     DraftShape shape = shape_of(*collision.Geom(), placed(result.frame, collision.SemanticPose(), collision.RawPose()));
-    shape.name = link.CollisionCount() > 1 ? collision.Name() : "";
+    shape.name = collision.Name();
     const sdf::Surface* const surface = collision.Surface();
     const std::uint16_t mask =
         surface != nullptr && surface->Contact() != nullptr ? surface->Contact()->CollideBitmask() : 0xffff;

@@ -85,13 +85,16 @@ class MovingBody {
     const DraftShape* found = nullptr;
     for (const DraftShape& shape : link_.shapes) {
       if (shape.collides && !shape.shape && touches_) {
-        lose("collides as a " + told(shape) +
-             "; scenarios have spheres, boxes, cylinders and, at rest, planes: put one "
-             "of these in its place");
+        lose("collides with a shape that scenarios do not have, " + told(shape) +
+             ": put a sphere, box or cylinder in its place");
+        collides_otherwise_ = true;
         continue;
       }
       if (!shape.shape || std::holds_alternative<HalfSpace>(*shape.shape)) {
-        if (shape.collides && touches_) lose("carries a plane; only what stands still may be a half_space");
+        if (shape.collides && touches_) {
+          lose("carries a plane; only what stands still may be a half_space");
+          collides_otherwise_ = true;
+        }
         continue;
       }
       if (found == nullptr) {
@@ -107,12 +110,11 @@ class MovingBody {
 
   void place(const DraftShape* shape, Body& body) {
     const bool needed = shape != nullptr && shape->collides && touches_;
-    if (shape == nullptr || (touches_ && !shape->collides)) {
-      // In a scenario with contact every body collides.
-      if (touches_)
-        lose(
-            "does not collide with anything, but in a scenario all bodies do: give it a shape, or remove "
-            "the shapes of the others");
+    // In a scenario with contact every body collides.
+    if (touches_ && !collides_otherwise_ && (shape == nullptr || !shape->collides)) {
+      lose(
+          "does not collide with anything, but in a scenario all bodies do: give it a shape, or remove the shapes of "
+          "the others");
     }
     if (shape == nullptr) {
       body.shape = Sphere{std::sqrt(2.5 * body.inertia.mean() / body.mass)};
@@ -136,6 +138,7 @@ class MovingBody {
 
   const DraftLink& link_;
   bool touches_;
+  bool collides_otherwise_ = false;  // with what was refused already
   ImportedWorld& world_;
 };
 
@@ -174,7 +177,8 @@ std::vector<Body> bodies_of(const DraftLink& link, bool touches, NameList& names
       }
       continue;
     }
-    const bool only = link.shapes.size() == 1 && link.name != "world";
+    const auto colliding = [](const DraftShape& s) { return s.collides; };
+    const bool only = std::count_if(link.shapes.begin(), link.shapes.end(), colliding) == 1 && link.name != "world";
     const std::string& own = shape.name.empty() ? shape.kind : shape.name;
     Body body{name(only ? link.name : own), *shape.shape, true, 0, Vec3::Zero(), {}};
     body.initial.p_WB = shape.at.p_WF;

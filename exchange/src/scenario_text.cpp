@@ -20,12 +20,19 @@ constexpr const char* kGapLimit = "0.001*length_scale";
 constexpr const char* kGapReason =
     "joints hold; a thousandth of the world's size is a demand, not a bound: derive your own";
 
-toml::array array_of(std::initializer_list<double> numbers) {
-  toml::array array;
-  for (const double x : numbers) array.push_back(x);
-  return array;
+// toml++ writes 17 digits of every number, 0.1 as 0.10000000000000001: numbers are written here, words by it.
+std::string list(std::initializer_list<std::string> items) {
+  std::string text;
+  for (const std::string& item : items) text += (text.empty() ? "[" : ", ") + item;
+  return text + "]";
 }
-toml::array array_of(const Vec3& v) { return array_of({v.x(), v.y(), v.z()}); }
+std::string list(const Vec3& v) { return list({shortest(v.x()), shortest(v.y()), shortest(v.z())}); }
+
+std::string quoted_text(const std::string& text) {
+  std::ostringstream out;
+  out << toml::toml_formatter{toml::value<std::string>(text), toml::format_flags::none};
+  return out.str();
+}
 
 class Text {
  public:
@@ -43,12 +50,9 @@ class Text {
   }
 
  private:
-  // toml++ sorts keys by name; a line each keeps the order that people read in.
-  template <typename Value>
-  void line(const char* key, Value&& value) {
-    const toml::table table{{key, std::forward<Value>(value)}};
-    out_ << toml::toml_formatter{table, toml::format_flags::allow_literal_strings} << '\n';
-  }
+  void line(const char* key, const std::string& value) { out_ << key << " = " << value << '\n'; }
+  void number(const char* key, double value) { line(key, shortest(value)); }
+  void words(const char* key, const std::string& value) { line(key, quoted_text(value)); }
   void header(const std::string& text) { out_ << '\n' << text << '\n'; }
 
   void add_comment(const std::string& comment) {
@@ -58,108 +62,96 @@ class Text {
   }
 
   void add_head() {
-    line("id", scenario_.id);
-    line("about", scenario_.about);
-    line("source", scenario_.source);
-    line("duration", scenario_.duration);
-    line("gravity", array_of(scenario_.gravity));
+    words("id", scenario_.id);
+    words("about", scenario_.about);
+    words("source", scenario_.source);
+    number("duration", scenario_.duration);
+    line("gravity", list(scenario_.gravity));
     if (!scenario_.steps.empty()) {
-      toml::array steps;
-      for (const double dt : scenario_.steps) steps.push_back(dt);
-      line("steps", std::move(steps));
+      std::string steps;
+      for (const double dt : scenario_.steps) steps += (steps.empty() ? "" : ", ") + shortest(dt);
+      line("steps", "[" + steps + "]");
     }
     header("[scales]");
-    line("length", scenario_.scales.length);
-    line("time", scenario_.scales.time);
-    line("mass", scenario_.scales.mass);
+    number("length", scenario_.scales.length);
+    number("time", scenario_.scales.time);
+    number("mass", scenario_.scales.mass);
     if (scenario_.contact) {
       header("[contact]");
-      line("restitution", scenario_.contact->restitution);
-      line("friction", scenario_.contact->friction);
+      number("restitution", scenario_.contact->restitution);
+      number("friction", scenario_.contact->friction);
     }
   }
 
-  static toml::table shape_table(const Shape& shape) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) return toml::table{{"sphere", sphere->radius}};
-    if (const auto* box = std::get_if<Box>(&shape)) return toml::table{{"box", array_of(box->size)}};
+  static std::string shape_text(const Shape& shape) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return "{ sphere = " + shortest(sphere->radius) + " }";
+    if (const auto* box = std::get_if<Box>(&shape)) return "{ box = " + list(box->size) + " }";
     if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-      return toml::table{{"cylinder", array_of({cylinder->radius, cylinder->height})}};
+      return "{ cylinder = " + list({shortest(cylinder->radius), shortest(cylinder->height)}) + " }";
     }
-    return toml::table{{"half_space", array_of(std::get<HalfSpace>(shape).normal)}};
+    return "{ half_space = " + list(std::get<HalfSpace>(shape).normal) + " }";
   }
 
   void add_body(const Body& body) {
     const BodyState& s = body.initial;
     const bool plane = std::holds_alternative<HalfSpace>(body.shape);
     header("[[body]]");
-    line("name", body.name);
-    toml::table shape = shape_table(body.shape);
-    shape.is_inline(true);
-    line("shape", std::move(shape));
-    if (body.fixed && !plane) line("fixed", true);
+    words("name", body.name);
+    line("shape", shape_text(body.shape));
+    if (body.fixed && !plane) line("fixed", "true");
     if (!body.fixed) {
-      line("mass", body.mass);
-      line("inertia", array_of(body.inertia));
+      number("mass", body.mass);
+      line("inertia", list(body.inertia));
     }
-    if (!s.p_WB.isZero(0)) line("position", array_of(s.p_WB));
-    if (!plane && !s.q_WB.vec().isZero(0)) line("attitude", array_of({s.q_WB.w(), s.q_WB.x(), s.q_WB.y(), s.q_WB.z()}));
-    if (!body.fixed && !s.v_WB.isZero(0)) line("velocity", array_of(s.v_WB));
-    if (!body.fixed && !s.w_WB.isZero(0)) line("angular_velocity", array_of(s.w_WB));
+    if (!s.p_WB.isZero(0)) line("position", list(s.p_WB));
+    const Quat& q = s.q_WB;
+    if (!plane && !q.vec().isZero(0)) {
+      line("attitude", list({shortest(q.w()), shortest(q.x()), shortest(q.y()), shortest(q.z())}));
+    }
+    if (!body.fixed && !s.v_WB.isZero(0)) line("velocity", list(s.v_WB));
+    if (!body.fixed && !s.w_WB.isZero(0)) line("angular_velocity", list(s.w_WB));
   }
 
-  const std::string& name_of(std::size_t body) const {
-    static const std::string kWorldName = "world";
-    return body == kWorld ? kWorldName : scenario_.bodies[body].name;
+  std::string end(std::size_t body) const {
+    return quoted_text(body == kWorld ? "world" : scenario_.bodies[body].name);
   }
   Vec3 in_world(std::size_t body, const Vec3& point) const {
     if (body == kWorld) return point;
     const BodyState& s = scenario_.bodies[body].initial;
     return s.p_WB + s.q_WB * point;
   }
-  toml::array pair(std::size_t a, std::size_t b) const {
-    toml::array array;
-    array.push_back(name_of(a));
-    array.push_back(name_of(b));
-    return array;
-  }
-  static toml::array points(const Vec3& a, const Vec3& b) {
-    toml::array array;
-    array.push_back(array_of(a));
-    array.push_back(array_of(b));
-    return array;
-  }
 
   void add_joint(std::size_t k) {
     const Joint& j = scenario_.joints[k];
     header("[[joint]]");
-    line("name", j.name);
-    line("kind", std::string(joint_name(j.kind)));
-    line("between", pair(j.a, j.b));
+    words("name", j.name);
+    words("kind", std::string(joint_name(j.kind)));
+    line("between", list({end(j.a), end(j.b)}));
     if (j.kind == JointKind::kDistance) {
-      line("anchors", points(in_world(j.a, j.on_a.anchor), in_world(j.b, j.on_b.anchor)));
+      line("anchors", list({list(in_world(j.a, j.on_a.anchor)), list(in_world(j.b, j.on_b.anchor))}));
     } else {
-      line("anchor", array_of(in_world(j.b, j.on_b.anchor)));
+      line("anchor", list(in_world(j.b, j.on_b.anchor)));
     }
     if (j.kind == JointKind::kHinge || j.kind == JointKind::kSlider) {
-      line("axis", array_of(Vec3(scenario_.bodies[j.b].initial.q_WB * j.on_b.axis())));
-      if (j.range) line("range", array_of({j.range->low, j.range->high}));
+      line("axis", list(Vec3(scenario_.bodies[j.b].initial.q_WB * j.on_b.axis())));
+      if (j.range) line("range", list({shortest(j.range->low), shortest(j.range->high)}));
     }
     for (const JointSpring& spring : scenario_.joint_springs) {
       if (spring.joint != k) continue;
-      line("stiffness", spring.stiffness);
-      line("damping", spring.damping);
-      line("rest", spring.rest);
+      number("stiffness", spring.stiffness);
+      number("damping", spring.damping);
+      number("rest", spring.rest);
     }
   }
 
   void add_spring(const Spring& spring) {
     header("[[spring]]");
-    line("name", spring.name);
-    line("between", pair(spring.a, spring.b));
-    line("anchors", points(in_world(spring.a, spring.on_a), in_world(spring.b, spring.on_b)));
-    line("stiffness", spring.stiffness);
-    line("damping", spring.damping);
-    line("length", spring.length);
+    words("name", spring.name);
+    line("between", list({end(spring.a), end(spring.b)}));
+    line("anchors", list({list(in_world(spring.a, spring.on_a)), list(in_world(spring.b, spring.on_b))}));
+    number("stiffness", spring.stiffness);
+    number("damping", spring.damping);
+    number("length", spring.length);
   }
 
   bool keeps_energy() const {
@@ -174,14 +166,14 @@ class Text {
 
   void add_gate(const char* metric, const char* limit, const char* reason) {
     header("[[gate]]");
-    line("metric", std::string(metric));
-    line("limit", std::string(limit));
-    line("reason", std::string(reason));
+    words("metric", std::string(metric));
+    words("limit", std::string(limit));
+    words("reason", std::string(reason));
   }
   void add_truth() {
     header("[reference]");
-    line("kind", std::string("invariants"));
-    line("citation", std::string("mechanics: the motion itself is not known"));
+    words("kind", std::string("invariants"));
+    words("citation", std::string("mechanics: the motion itself is not known"));
     if (keeps_energy()) add_gate("energy.max", kEnergyLimit, kEnergyReason);
     if (!scenario_.joints.empty()) add_gate("joint_gap.max", kGapLimit, kGapReason);
   }

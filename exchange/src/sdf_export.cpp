@@ -8,6 +8,8 @@
 namespace plumbline {
 namespace {
 
+constexpr const char* kWorldName = "plumbline";  // "world" is reserved
+
 const char* type_of(const Joint& joint) {
   switch (joint.kind) {
     case JointKind::kBall:
@@ -33,7 +35,7 @@ class SdfWriter {
     set(*root, "version", "1.9");
     set(*root, "xmlns:plumbline", "urn:plumbline");
     world_ = &child(*root, "world");
-    set(*world_, "name", "world");
+    set(*world_, "name", kWorldName);
     child(*world_, "gravity", spaced(scenario_.gravity));
     if (!scenario_.steps.empty()) {
       Xml& physics = child(*world_, "physics");
@@ -213,7 +215,7 @@ class SdfWriter {
       if (s.v_WB.isZero(0) && s.w_WB.isZero(0)) continue;
       if (state == nullptr) {
         state = &child(*world_, "state");
-        set(*state, "world_name", "world");
+        set(*state, "world_name", kWorldName);
       }
       // A model's pose in a state would be its pose relative to the world: all of them stand at the origin.
       Xml& model = child(*state, "model");

@@ -121,7 +121,7 @@ def check_hostile():
                       ["--reference", box, "--dt", "3", "--as", "npz", "-o", "x"],
                       ["--reference", box, "--dt", "0.1", "--as", "npz"],
                       ["--reference", box, "--dt", "0.1", "--as", "mjcf", "-o", "x"],
-                      ["--reference", box, "--dt", "0.1", "--as", "csv", "-o", "/nonexistent/x"],
+                      ["--reference", box, "--dt", "0.1", "--as", "csv", "-o", "/dev/null/x"],
                       ["--reference", "collision/two_sphere", "--dt", "0.1", "--as", "csv", "-o", "x"],
                       ["--reference", SOURCE / "tests/exchange/everything.toml", "--dt", "0.1", "--as", "csv", "-o", "x"],
                       ["no/such", "--as", "sdf"]):

@@ -90,7 +90,7 @@ TEST(WorldAssembly, WhatHasNoPlaceIsNamed) {
   };
   const Change changes[] = {
       {"link 'one' has no mass", [](WorldDraft& d) { d.links[0].mass = 0; }},
-      {"'one' collides as a mesh 'hull'",
+      {"do not have, mesh 'hull'",
        [](WorldDraft& d) {
          d.links[0].shapes[0].shape.reset();
          d.links[0].shapes[0].kind = "mesh";
