@@ -1,7 +1,5 @@
 #include "mjcf_reader.hpp"
 
-#include <algorithm>
-
 #include "compiled_model.hpp"
 #include "mjcf_contacts.hpp"
 
@@ -216,7 +214,8 @@ class MjcfReader {
         joint.anchor_W = model_.vec(d_.xpos, first);
         break;
       case mjEQ_TENDON: {
-        const bool keeps_length = second < 0 && std::all_of(data, data + 5, [](double c) { return c == 0; });
+        // Without a second tendon only the first coefficient counts: what the length is off from the model's own.
+        const bool keeps_length = second < 0 && data[0] == 0;
         if (!keeps_length || !straight(first)) return lose(who + " couples lengths of tendons");
         joint.kind = JointKind::kDistance;
         joint.a = tendon_link(first, 0);

@@ -86,22 +86,34 @@ std::string told(const sdf::Error& error, const std::filesystem::path& file) {
 // What libsdformat does to a URDF without a word in its answer.
 void list_urdf_losses(const XMLElement& robot, const sdf::Root& root, WorldDraft& draft) {
   draft.notes.emplace_back("URDF states neither gravity nor contact laws: libsdformat's defaults stand in");
+  std::set<std::string> on_the_world;  // links that a fixed joint ties to the world
   for (const XMLElement* joint = robot.FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint")) {
     const std::string type = attribute_of(joint, "type"), name = "joint '" + attribute_of(joint, "name") + "'";
     if (type == "planar") draft.losses.push_back(name + " is planar; scenarios have hinges and sliders");
+    if (type == "floating") {
+      draft.losses.push_back(name + " is floating, which libsdformat cannot place; give the body a model in SDF");
+    }
     if (joint->FirstChildElement("mimic") != nullptr) draft.losses.push_back(name + " mimics another joint");
+    if (type == "fixed" && attribute_of(joint->FirstChildElement("parent"), "link") == "world") {
+      on_the_world.insert(attribute_of(joint->FirstChildElement("child"), "link"));
+    }
   }
   const sdf::Model* const model = root.Model();
   for (const XMLElement* link = robot.FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
     const std::string name = attribute_of(link, "name");
     if (name == "world" || model == nullptr || model->LinkNameExists(name)) continue;
-    if (link->FirstChildElement("inertial") == nullptr && link->FirstChildElement("collision") == nullptr) {
+    const bool collides = link->FirstChildElement("collision") != nullptr;
+    if (collides && on_the_world.contains(name)) {
+      draft.losses.push_back("link '" + name +
+                             "' stands on the world and collides, but libsdformat leaves it out; give " +
+                             "it a static model in SDF");
+    } else if (link->FirstChildElement("inertial") == nullptr && !collides) {
       draft.notes.push_back("link '" + name + "' is only a place: merged into its parent");
     } else {
       draft.notes.push_back("link '" + name +
-                            "' is gone: libsdformat merges links that a fixed joint holds into their "
+                            "' is gone: libsdformat merges links that a fixed joint holds into their " +
                             "parent, and leaves out those without mass");
     }
   }
