@@ -48,12 +48,14 @@ class MovingBody {
     const DraftShape* shape = chosen();
     // Along the shape where that is possible: only then can it collide as it should.
     const Quat preferred = shape != nullptr ? shape->at.q_WF : link_.com.q_WF;
-    if (const auto moments = diagonal(link_.inertia_com_W, preferred)) {
+    for (const Quat& axes : {preferred, link_.com.q_WF}) {
+      const auto moments = diagonal(link_.inertia_com_W, axes);
+      if (!moments) continue;
       body.inertia = *moments;
-      body.initial.q_WB = preferred;
-    } else if (!turn_to_principal_axes(body)) {
-      return std::nullopt;
+      body.initial.q_WB = axes;
+      break;
     }
+    if (body.inertia.isZero(0) && !turn_to_principal_axes(body)) return std::nullopt;
     if (body.inertia.minCoeff() <= 0) {
       lose("has a moment of inertia of 0; every moment must be > 0");
       return std::nullopt;

@@ -3,6 +3,8 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "plumbline/exchange/world_export.hpp"
 #include "plumbline/scenarios/scenario_file.hpp"
@@ -80,7 +82,8 @@ TEST(WorldExport, UrdfPutsTheFrameAtTheJoint) {
   ASSERT_NE(link, nullptr);
   // Glued at x = 1 m, its centre of mass at 1.2 m.
   double x = 0;
-  ASSERT_EQ(sscanf(link->FirstChildElement("inertial")->FirstChildElement("origin")->Attribute("xyz"), "%lf", &x), 1);
+  ASSERT_EQ(std::sscanf(link->FirstChildElement("inertial")->FirstChildElement("origin")->Attribute("xyz"), "%lf", &x),
+            1);
   EXPECT_NEAR(x, 0.2, 1e-15);
 }
 
