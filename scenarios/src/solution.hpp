@@ -19,7 +19,6 @@ struct Solution {
 };
 
 // The whole table.
-// The whole table: torque_free_rotation, planar_pendulum, kepler_orbit, heavy_top ...
 const std::vector<Solution>& solutions();
 
 }  // namespace plumbline
