@@ -186,7 +186,7 @@ TEST(GateLimit, IsReachedByAFirstOrderScheme) {
   EXPECT_GT(worst("particle/oscillator", "position.max"), 0.9);
   EXPECT_GT(worst("particle/overdamped", "position.max"), 0.1);  // most of the limit is for a brake of its own
   EXPECT_GT(worst("particle/chain_of_three", "position.max"), 0.9);
-  EXPECT_GT(worst("particle/kepler", "energy.max"), 0.9);
+  EXPECT_GT(worst("particle/kepler", "angular_momentum.max"), 0.9);
   EXPECT_GT(worst("particle/kepler", "position.final"), 0.9);
   EXPECT_GT(worst("particle/charged_particle", "velocity.max"), 0.99);
   EXPECT_GT(worst("collision/two_sphere", "event_time.max"), 0.5);
