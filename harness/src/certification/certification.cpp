@@ -2,13 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "second_sources.hpp"
 
 namespace plumbline {
 namespace {
 
-constexpr int kTimes = 400;
+constexpr int kTimes = 200;
+
+// A motion that is computed anew whenever time goes back is gone through once; what is asked for again is remembered.
+class RememberedReference final : public Reference {
+ public:
+  RememberedReference(const Scenario& scenario, const Reference& reference, std::vector<double> times)
+      : reference_(reference) {
+    std::sort(times.begin(), times.end());
+    for (const double t : times) states_.emplace(t, states_of(scenario, reference, t));
+  }
+  BodyState at(std::size_t body, double t) const override {
+    const auto found = states_.find(t);
+    return found != states_.end() ? found->second[body] : reference_.at(body, t);
+  }
+  double uncertainty() const override { return reference_.uncertainty(); }
+  std::string_view citation() const override { return reference_.citation(); }
+  std::string_view kind() const override { return reference_.kind(); }
+  std::string_view bound_source() const override { return reference_.bound_source(); }
+
+ private:
+  const Reference& reference_;
+  std::map<double, std::vector<BodyState>> states_;
+};
 
 // Where a certificate that names no time must hold.
 std::vector<double> times_of(const Scenario& scenario) {
@@ -74,6 +97,13 @@ const CertificationRow* Certification::closest() const {
 }
 
 Certification certify(const Scenario& scenario, const Reference& reference) {
+  if (reference.kind() == "ode" && dynamic_cast<const RememberedReference*>(&reference) == nullptr) {
+    std::vector<double> times = times_of(scenario);
+    for (const Certificate& certificate : scenario.certificates) {
+      if (certificate.time) times.push_back(*certificate.time);
+    }
+    return certify(scenario, RememberedReference(scenario, reference, std::move(times)));
+  }
   Certification result;
   if (scenario.threshold) {
     check_threshold(scenario, result);

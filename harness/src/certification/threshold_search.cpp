@@ -10,7 +10,12 @@
 namespace plumbline {
 namespace {
 
-constexpr double kSteps = 400;
+// A pile costs the square of its bodies.
+double steps_for(const Scenario& scenario) {
+  const auto moving =
+      std::count_if(scenario.bodies.begin(), scenario.bodies.end(), [](const Body& body) { return !body.fixed; });
+  return std::clamp(1600.0 / static_cast<double>(moving * moving), 100.0, 400.0);
+}
 
 // Only the states at the end are asked for.
 Trajectory last_state(const Scenario& scenario, double dt) {
@@ -24,14 +29,15 @@ struct Search {
   bool changes = false;  // the answer differs at the ends of the range, the right way round
 };
 
-Search search(const Scenario& scenario, double steps) {
+// In a range at whose ends the answers differ.
+Search search(const Scenario& scenario, double steps, double low, double high) {
   const Threshold& threshold = *scenario.threshold;
   const auto ask = [&](double value) {
     const auto with = threshold.with(value);
     return threshold.answer(last_state(*with, with->duration / steps));
   };
-  double no = threshold.exact_above ? threshold.low : threshold.high;
-  double yes = threshold.exact_above ? threshold.high : threshold.low;
+  double no = threshold.exact_above ? low : high;
+  double yes = threshold.exact_above ? high : low;
   if (ask(no) || !ask(yes)) return {};
   while (std::abs(yes - no) > threshold.resolution) {
     const double middle = 0.5 * (no + yes);
@@ -60,9 +66,16 @@ void check_threshold(const Scenario& scenario, Certification& result) {
       result.left_out.push_back("threshold: " + *why);
       return;
     }
-    const Search coarse = search(scenario, kSteps), fine = is_smooth(*problem) ? coarse : search(scenario, 2 * kSteps);
+    const double steps = steps_for(*problem), low = threshold.low, high = threshold.high;
+    const Search coarse = search(scenario, steps, low, high);
+    Search fine = coarse;
+    if (!is_smooth(*problem) && coarse.changes) {
+      const double room = 2 * threshold.resolution;  // most often the second answer is next to the first
+      fine = search(scenario, 2 * steps, std::max(low, coarse.middle - room), std::min(high, coarse.middle + room));
+      if (!fine.changes) fine = search(scenario, 2 * steps, low, high);
+    }
     const double apart = std::abs(coarse.middle - fine.middle);
-    const double bound = std::max(threshold.resolution + apart, granted(scenario, scenario.duration / (2 * kSteps)));
+    const double bound = std::max(threshold.resolution + apart, granted(scenario, scenario.duration / (2 * steps)));
     const bool found = coarse.changes && fine.changes;
     result.rows.push_back({"threshold",
                            threshold.parameter + " at which '" + threshold.question + "' changes in the core's motion",
