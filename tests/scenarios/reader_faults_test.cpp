@@ -70,16 +70,17 @@ const Fault kFaults[] = {
      "f.toml:20:8: /body/0/mass: must be a number or an expression in quotes"},
     {"UnknownKeyWithNearMiss", "mass = 1\nvelocity", "mas = 1\nvelocity",
      "f.toml:20:1: /body/0/mas: unknown key; did you mean 'mass'? allowed here: name, shape, mass, inertia, position, "
-     "attitude, velocity, angular_velocity"},
+     "attitude, velocity, angular_velocity, fixed"},
     {"UnknownKeyAtTheTop", "duration = 2", "duration = 2\ncolour = 1",
-     "f.toml:5:1: /colour: unknown key; allowed here: id, about, source, duration, steps, gravity, parameters, "
-     "derived, scales, contact, body, joint, force, reference, event, gate"},
+     "f.toml:5:1: /colour: unknown key; allowed here: id, about, source, duration, t_valid, tier, steps, gravity, "
+     "parameters, derived, scales, contact, body, joint, spring, force, threshold, reference, event, gate, "
+     "certificate"},
     {"UnknownShape", "{ sphere = 0.5 }", "{ spere = 0.5 }",
      "f.toml:19:11: /body/0/shape/spere: unknown shape; did you mean 'sphere'? write { sphere = r }, { box = [x, y, z] "
-     "} or { half_space = [nx, ny, nz] }"},
+     "}, { cylinder = [r, h] } or { half_space = [nx, ny, nz] }"},
     {"TwoShapes", "{ sphere = 0.5 }", "{ sphere = 0.5, box = [1, 1, 1] }",
-     "f.toml:19:9: /body/0/shape: must name one shape: { sphere = r }, { box = [x, y, z] } or { half_space = [nx, ny, "
-     "nz] }"},
+     "f.toml:19:9: /body/0/shape: must name one shape: { sphere = r }, { box = [x, y, z] }, { cylinder = [r, h] } or { "
+     "half_space = [nx, ny, nz] }"},
     {"TooFewComponents", "[\"v0\", 0, 0]", "[\"v0\", 0]",
      "f.toml:21:12: /body/0/velocity: must have 3 components, has 2"},
     {"TooManyEdges", "{ sphere = 0.5 }", "{ box = [1, 1, 1, 1] }",
@@ -157,7 +158,9 @@ ball.vx = "v0*exp(-c*t)"
     {"UnknownComponent", "ball.vx = ", "ball.speed = ",
      "f.toml:32:6: /reference/ball/speed: unknown key; allowed here: x, y, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz"},
     {"UnknownReferenceKind", "\"closed_form\"", "\"guess\"",
-     "f.toml:29:8: /reference/kind: unknown kind 'guess'; known: closed_form, solution"},
+     "f.toml:29:8: /reference/kind: unknown kind 'guess'; known: closed_form, solution, ode, events, table, "
+     "invariants, "
+     "threshold"},
     {"ReferenceStartsElsewhere", "\"v0/c*(1 - exp(-c*t))\"", "\"v0/c*(2 - exp(-c*t))\"",
      "f.toml:31:10: /reference/ball/x: ball.x is 6 at t = 0, but the body starts with 0; correct one of them"},
     {"ReferenceEndsInNothing", "\"v0/c*(1 - exp(-c*t))\"", "\"v0*t/(2 - t)\"",
@@ -171,7 +174,7 @@ ball.vx = "v0*exp(-c*t)"
      "position.rms, position.final, velocity.max, velocity.rms, velocity.final, attitude.max, attitude.rms, "
      "attitude.final, angular_velocity.max, angular_velocity.rms, angular_velocity.final, energy.max, energy.final, "
      "momentum.max, momentum.final, angular_momentum.max, angular_momentum.final, event_time.max, events.missed, "
-     "joint_gap.max"},
+     "joint_gap.max, threshold.value, threshold.error"},
     {"EventMetricWithoutEvent", "time = 1\n[[gate]]\nmetric = \"position.max\"",
      "time = 3\n[[gate]]\nmetric = \"event_time.max\"",
      "f.toml:38:10: /gate/0/metric: event_time.max means nothing here: there is no event within the duration; add an "
