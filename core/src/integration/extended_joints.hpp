@@ -50,7 +50,6 @@ class JointSystem {
   explicit JointSystem(const std::vector<Joint>& joints);
 
   bool empty() const { return joints_.empty(); }
-  bool has_loops() const { return loops_; }
 
   // a: 6 numbers a body, accelerations in W and angular ones in body axes, without joints; leaves with them. Where
   // joints close loops the velocities are first put onto the joints. What a velocity lacks there counts over the

@@ -24,8 +24,6 @@ class Motion {
   const Scenario& scenario() const { return scenario_; }
   // Whether force laws or drives add the rounding of double precision.
   bool evaluates_in_double() const { return !scenario_.forces.empty() || !scenario_.drives.empty(); }
-  // Whether joints close loops: these may have positions where they are singular.
-  bool has_loops() const { return joints_.has_loops(); }
 
   // The scenario's initial state, with its roundings put back onto the joints.
   void start(Column& x, Column& u);

@@ -45,34 +45,14 @@ void FehlbergMethod::advance_to(Real end) {
   State y(static_cast<std::size_t>(size));
   Eigen::Map<Column> state(y.data(), size);
   state << x_, u_;
-  // Over a position where a loop is singular in one stride, as gauss_collocation.cpp explains.
-  constexpr int kRejectionsBeforeStride = 6;
-  odeint::runge_kutta_fehlberg78<State, Real> free_solver;
-  int rejections = 0;
   while (t_ < end) {
-    if (motion_.has_loops() && rejections >= kRejectionsBeforeStride && usual_ > 0) {
-      const Real stride = std::min(0.9L * usual_, end - t_);
-      free_solver.do_step(field, y, t_, stride);
-      x_ = state.head(split);
-      u_ = state.tail(u_.size());
-      motion_.project(x_, u_);
-      state << x_, u_;
-      t_ = stride == end - t_ ? end : t_ + stride;
-      h_ = usual_;
-      rejections = 0;
-      continue;
-    }
     const bool last = h_ >= end - t_;
     Real t = t_, h = last ? end - t_ : h_;
-    const Real tried = h;
     if (solver.try_step(field, y, t, h) == odeint::success) {
       t_ = last ? end : t;
       h_ = last ? std::max(h_, h) : h;
-      if (rejections == 0 && !last) usual_ = tried;
-      rejections = 0;
     } else {
       h_ = h;
-      ++rejections;
     }
     if (!(h_ > 1e-18L * std::max(static_cast<Real>(scales.time), t_))) {
       throw std::runtime_error("the second method's steps underflow at t = " + std::to_string(static_cast<double>(t_)) +

@@ -19,7 +19,6 @@ class FehlbergMethod {
  private:
   Motion& motion_;
   Real t_ = 0, h_;
-  Real usual_ = 0;  // the last step that was taken at once
   Column x_, u_;
 };
 

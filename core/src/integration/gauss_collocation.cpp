@@ -16,11 +16,6 @@ constexpr Real kRounding = std::numeric_limits<Real>::epsilon();
 // Of the polynomial within a step, relative to the scales. Ends of steps are far better.
 constexpr Real kTolerance = 1e-17L;
 constexpr int kMaxIterations = 40;
-// Near a position where a loop is singular the accelerations carry the rounding of places over the square of the
-// distance to it. Steps that shrink come closer and closer and never pass, though the motion is smooth; what passes is
-// a stride of the usual length, and the noise that it brings across the joints goes with the projection behind it.
-constexpr int kRejectionsBeforeStride = 4;
-constexpr Real kStrideNoise = 1e-10L;
 constexpr int kManyIterations = 12;           // beyond, shorter steps are cheaper
 constexpr std::size_t kKeptBytes = 64 << 20;  // of steps that are remembered
 
@@ -152,7 +147,7 @@ void GaussCollocation::guess(Real h) {
   u_stage_.colwise() += u_;
 }
 
-GaussCollocation::Attempt GaussCollocation::attempt(Real h, bool stride) {
+GaussCollocation::Attempt GaussCollocation::attempt(Real h) {
   const Square A = h * rule().integration;
   guess(h);
   Attempt result;
@@ -183,7 +178,7 @@ GaussCollocation::Attempt GaussCollocation::attempt(Real h, bool stride) {
     }
     // Where the field's own rounding is larger than the last digit the changes stop falling.
     const bool stagnates = result.iterations > 2 && change > before / 4;
-    if (change <= 2 * kRounding || (stagnates && change < (stride ? kStrideNoise : 1e-14L))) {
+    if (change <= 2 * kRounding || (stagnates && change < 1e-14L)) {
       result.converged = true;
       break;
     }
@@ -215,31 +210,20 @@ void GaussCollocation::advance() {
   set_scales();
   const Real time_scale = static_cast<Real>(motion_.scenario().scales.time);
   if (h_ == 0) h_ = 0.01L * std::min(time_scale, stop_ > 0 ? stop_ : time_scale);
-  int rejections = 0;
   while (true) {
-    const bool stride =
-        motion_.has_loops() && !kept_.empty() && rejections > 0 && rejections % kRejectionsBeforeStride == 0;
     const Real left = stop_ - t_;
-    // Each time another length, so that no stage meets the singular position itself.
-    const Real wished = stride ? kept_.back().h * (1.1L - 0.05L * static_cast<Real>(rejections % 7)) : h_;
-    const Real h = left > 0 && wished > left ? left : wished;
+    const Real h = left > 0 && h_ > left ? left : h_;
     if (!(h > 1e-18L * std::max(time_scale, t_))) {
       throw std::runtime_error("the integration cannot go on at t = " + std::to_string(static_cast<double>(t_)) +
                                " s: the motion is singular, stiff or not finite there");
     }
-    const Attempt tried = attempt(h, stride);
-    if (stride && !tried.converged) {
-      ++rejections;
-      continue;
-    }
+    const Attempt tried = attempt(h);
     if (!tried.converged) {
-      ++rejections;
       h_ = h / 4;
       continue;
     }
     const Real wanted = 0.9L * std::pow(std::max<Real>(tried.error, 1e-12L), -1 / static_cast<Real>(kStages + 1));
-    if (tried.error > 1 && !stride) {
-      ++rejections;
+    if (tried.error > 1) {
       h_ = h * std::clamp<Real>(wanted, 0.1L, 0.9L);
       continue;
     }
@@ -247,7 +231,6 @@ void GaussCollocation::advance() {
     const Real next = h * std::clamp<Real>(wanted, 0.5L, many ? 0.8L : 2);
     // A step that was cut short by the stop must not make the next ones short.
     if (h == h_ || next > h_) h_ = next;
-    if (stride) h_ = h;
     const std::size_t bytes = static_cast<std::size_t>(x_.size() + u_.size()) * (kStages + 1) * sizeof(Real);
     if ((kept_.size() + 1) * bytes > kKeptBytes) kept_.clear();
     kept_.push_back({t_, h, x_, u_, dx_coefficients_, du_coefficients_});

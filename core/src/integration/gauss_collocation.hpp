@@ -49,7 +49,7 @@ class GaussCollocation {
   };
 
   void advance();
-  Attempt attempt(Real h, bool stride);
+  Attempt attempt(Real h);
   void guess(Real h);
   Real truncation(Real h) const;
   void evaluate(const Step& step, Real t, Column& x, Column& u) const;
