@@ -77,7 +77,7 @@ void check_methods(const Scenario& scenario, const Reference& reference, Certifi
   result.rows.push_back({"agreement",
                          "the core's equations by a method of order 8 in double precision",
                          agreement.core_field,
-                         reference.uncertainty() + kDoublePrecision * growth,
+                         reference.uncertainty() + kDoublePrecision * sensitivity.growth,
                          true,
                          {}});
 }
