@@ -79,19 +79,6 @@ std::vector<std::size_t> elimination_order(const std::vector<Joint>& joints) {
   return order;
 }
 
-// Whether joints close a loop, through the world or not.
-bool close_loops(const std::vector<Joint>& joints) {
-  std::vector<std::size_t> group;  // of each body, the world first
-  const auto number = [](std::size_t body) { return body == kWorld ? 0 : body + 1; };
-  for (const Joint& joint : joints) {
-    const std::size_t a = number(joint.a), b = number(joint.b);
-    while (group.size() <= std::max(a, b)) group.push_back(group.size());
-    if (group[a] == group[b]) return true;
-    std::replace(group.begin(), group.end(), std::size_t{group[b]}, std::size_t{group[a]});
-  }
-  return false;
-}
-
 }  // namespace
 
 // The two frames in W, and the way between the anchors.
@@ -162,7 +149,6 @@ JointSystem::JointSystem(const std::vector<Joint>& joints) : place_(joints.size(
   rows_.resize(static_cast<std::size_t>(rows));
   solver_ = SemidefiniteSolver(std::move(first));
   right_ = Column::Zero(rows);
-  loops_ = close_loops(joints);
 }
 
 JointSystem::Ends JointSystem::ends(const Tie& tie, std::span<const Placed> bodies) const {
@@ -247,21 +233,13 @@ Real JointSystem::rate(const Condition& c, const Placed& A, const Placed& B) {
   return c.force.dot(B.v - A.v) + c.torque_A.dot(A.w_B) + c.torque_B.dot(B.w_B);
 }
 
-void JointSystem::accelerate(std::span<Placed> bodies, Column& a) {
+Real JointSystem::rate_of(const Tie& tie, Eigen::Index row, std::span<const Placed> bodies) const {
+  return rate(rows_[static_cast<std::size_t>(row)], body_at(tie.a, bodies), body_at(tie.b, bodies));
+}
+
+void JointSystem::accelerate(std::span<const Placed> bodies, Column& a) {
   if (empty()) return;
   factor(bodies);
-  if (loops_) {
-    read_rates(bodies);
-    correction_.setZero(a.size());
-    push(bodies, correction_);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(6 * i);
-      bodies[i].v += correction_.segment<3>(at);
-      bodies[i].w_B += correction_.segment<3>(at + 3);
-      bodies[i].w_W = bodies[i].R * bodies[i].w_B;
-    }
-    for (const Tie& tie : joints_) write(tie, bodies);
-  }
   for (const Tie& tie : joints_) {
     for (Eigen::Index r = tie.first_row; r < tie.first_row + rows_of(tie.kind); ++r) {
       const Condition& row = rows_[static_cast<std::size_t>(r)];
@@ -287,19 +265,17 @@ Real JointSystem::close_places(std::span<const Placed> bodies, Column& displacem
   return largest;
 }
 
-void JointSystem::read_rates(std::span<const Placed> bodies) {
+Real JointSystem::close_velocities(std::span<const Placed> bodies, Column& change) {
+  factor(bodies);
+  Real largest = 0;
   for (const Tie& tie : joints_) {
-    const Placed &A = body_at(tie.a, bodies), &B = body_at(tie.b, bodies);
     for (Eigen::Index r = tie.first_row; r < tie.first_row + rows_of(tie.kind); ++r) {
-      right_[r] = -rate(rows_[static_cast<std::size_t>(r)], A, B);
+      right_[r] = -rate_of(tie, r, bodies);
+      largest = larger(largest, std::abs(right_[r]));
     }
   }
-}
-
-void JointSystem::close_velocities(std::span<const Placed> bodies, Column& change) {
-  factor(bodies);
-  read_rates(bodies);
   push(bodies, change);
+  return largest;
 }
 
 Condition JointSystem::coordinate(std::size_t joint, std::span<const Placed> bodies) const {

@@ -51,14 +51,12 @@ class JointSystem {
 
   bool empty() const { return joints_.empty(); }
 
-  // a: 6 numbers a body, accelerations in W and angular ones in body axes, without joints; leaves with them. Where
-  // joints close loops the velocities are first put onto the joints. What a velocity lacks there counts over the
-  // distance to a position where the loop is singular: without this no integrator passes one.
-  void accelerate(std::span<Placed> bodies, Column& a);
+  // a: 6 numbers a body, accelerations in W and angular ones in body axes, without joints; leaves with them.
+  void accelerate(std::span<const Placed> bodies, Column& a);
   // The least displacement (6 a body, as velocities) that closes what is open to first order; returns the largest |C|.
   Real close_places(std::span<const Placed> bodies, Column& displacement);
-  // The least change of velocities that makes J u = 0.
-  void close_velocities(std::span<const Placed> bodies, Column& change);
+  // The least change of velocities that makes J u = 0; returns the largest |J u|.
+  Real close_velocities(std::span<const Placed> bodies, Column& change);
 
   // The angle of a hinge, in (-pi, pi], or the travel of a slider, as a condition on it.
   Condition coordinate(std::size_t joint, std::span<const Placed> bodies) const;
@@ -87,16 +85,14 @@ class JointSystem {
   // From right_ to the multipliers, and from these to M^-1 J^T lambda, added to `change`.
   void factor(std::span<const Placed> bodies);
   void push(std::span<const Placed> bodies, Column& change);
-  // right_ = -J u
-  void read_rates(std::span<const Placed> bodies);
+  Real rate_of(const Tie& tie, Eigen::Index row, std::span<const Placed> bodies) const;
 
   std::vector<Tie> joints_;         // in the order of elimination
   std::vector<std::size_t> place_;  // of each joint of the scenario in it
   std::vector<Meeting> meetings_;
   std::vector<Condition> rows_;
   SemidefiniteSolver solver_;
-  bool loops_ = false;
-  Column right_, correction_;
+  Column right_;
 };
 
 }  // namespace plumbline::extended

@@ -16,9 +16,10 @@ namespace {
 using extended::Column;
 using extended::Real;
 
-constexpr double kStartDistance = 1e-9;                          // of a copy, in scaled coordinates
-constexpr Eigen::Index kMostCopies = 24, kMostEventCopies = 48;  // events are cheap
-constexpr int kTimes = 1000;                                     // at which validity is looked at
+constexpr double kStartDistance = 1e-9;  // of a copy, in scaled coordinates
+constexpr Eigen::Index kMostCopies = 12;
+constexpr int kMostTries = 64;
+constexpr int kTimes = 1000;  // at which validity is looked at
 
 // The same motion from a slightly other start.
 class Copy {
@@ -163,9 +164,8 @@ class Growth {
     motion_->read(0, states_);
     std::mt19937 random(20221);
     const auto number = [&] { return 2 * static_cast<double>(random()) / static_cast<double>(random.max()) - 1; };
-    const Eigen::Index most = scenario_.contact ? kMostEventCopies : kMostCopies;
     Eigen::MatrixXd start(size, 0), orthogonal(size, 0);
-    for (Eigen::Index tries = 0; tries < 3 * most && start.cols() < most; ++tries) {
+    for (int tries = 0; tries < kMostTries && start.cols() < kMostCopies; ++tries) {
       Eigen::VectorXd direction = Eigen::VectorXd::NullaryExpr(size, number);
       direction.normalize();
       std::unique_ptr<Copy> copy = source_->displaced(direction, kStartDistance);

@@ -8,8 +8,7 @@
 //   growth(t) = max over c of |D(t) c| / |D(0) c|
 //
 // places counting over the length scale, velocities over the velocity scale, attitudes as angles, angular velocities
-// times the time scale. All directions are taken where there are few; of many, 24 (48 where only spheres collide) that
-// are drawn at random, always the same ones: then it is a lower bound, which exponential growth soon makes up for.
+// times the time scale. All directions are taken where there are few, else twelve of them, chosen once and for all.
 #pragma once
 
 #include <span>
