@@ -125,10 +125,19 @@ class Reader {
     }
   }
 
+  Verdict ending(const toml::node& node) const {
+    const auto verdict = verdict_named(text(node));
+    for (const Verdict known : {Verdict::kError, Verdict::kCrashed, Verdict::kTimedOut, Verdict::kDiverged}) {
+      if (verdict == known) return known;
+    }
+    fail(node, "ends is \"error\", \"crashed\", \"timed_out\" or \"diverged\"");
+  }
+
   void add_deviation(const toml::table& entry) {
     Deviation base;
     base.place = place_of(entry);
     const toml::table* limits = nullptr;
+    const toml::node* ends = nullptr;
     for (auto&& [key, node] : entry) {
       const std::string_view name = key.str();
       if (take_common(base, name, node)) continue;
@@ -144,14 +153,22 @@ class Reader {
         });
       } else if (name == "limits") {
         limits = &require_table(node);
+      } else if (name == "ends") {
+        ends = &node;
       } else {
-        fail(node, fmt::format("unknown key '{}'; a deviation has engines, scenario, parameters, profile, dt, limits, "
-                               "why, link",
+        fail(node, fmt::format("unknown key '{}'; a deviation has engines, scenario, parameters, profile, dt, limits "
+                               "or ends, why, link",
                                name));
       }
     }
     if (base.scenario.empty()) fail(entry, "a deviation must name its scenario");
     if (base.why.empty()) fail(entry, "a deviation must say why: the cause is the point of the list");
+    if (ends != nullptr) {
+      if (limits != nullptr) fail(*ends, "a run that ends so has no gates; write limits in an entry of its own");
+      base.ends = ending(*ends);
+      result_.deviations.push_back(base);
+      return;
+    }
     if (limits == nullptr || limits->empty()) fail(entry, "a deviation must give limits = { \"metric\" = number }");
     for (auto&& [metric, value] : *limits) {
       if (find_metric(metric.str()) == nullptr) fail(value, fmt::format("there is no metric '{}'", metric.str()));

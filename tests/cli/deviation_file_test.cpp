@@ -54,6 +54,14 @@ TEST_F(DeviationFile, GivesOneDeviationPerLimit) {
   EXPECT_EQ(deviations[1].place.line, 1);
 }
 
+TEST_F(DeviationFile, GivesHowARunEnds) {
+  const auto deviations =
+      read("[[deviation]]\nscenario = \"a/b\"\nends = \"timed_out\"\nwhy = \"small steps\"\n").deviations;
+  ASSERT_EQ(deviations.size(), 1u);
+  EXPECT_EQ(deviations[0].ends, Verdict::kTimedOut);
+  EXPECT_TRUE(deviations[0].metric.empty());
+}
+
 TEST_F(DeviationFile, AnAbsentFileIsAnEmptyList) {
   EXPECT_TRUE(read_deviations("/nonexistent.toml").deviations.empty());
   EXPECT_TRUE(read_deviations("/nonexistent.toml").known_failures.empty());

@@ -120,7 +120,7 @@ Scenario turned_rod(const Vec3& axis) {
 }
 
 TEST(JointSpring, TurnsTowardsItsRestAndBrakes) {
-  for (const Vec3 axis : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)}) {
+  for (const Vec3& axis : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)}) {
     Scenario s = turned_rod(axis);
     s.joint_springs = {{0, 8, 2, -0.1}};
     const std::vector<BodyState> states = {s.bodies[0].initial};
@@ -174,7 +174,7 @@ TEST(ForceElements, ThatAnEngineHasItselfAreNotApplied) {
 TEST(ForceElements, OfAMassOnASpringSwingWithItsFrequency) {
   Scenario s = free_flight(ball("ball", 0.1, 2, Vec3(1.5, 0, 0), Vec3::Zero()), Vec3::Zero(), 1);
   s.springs = {{"spring", kWorld, 0, Vec3(0, 0, 0), Vec3::Zero(), 50, 0, 1}};
-  const Scheme scheme{Integrator::kRungeKutta4, ImpactRule::kExactTime, GyroscopicTerm::kExplicit, 1,
+  const Scheme scheme{Integrator::kRungeKutta4, ImpactRule::kExactTime, GyroscopicTerm::kExplicit,
                       ForceSampling::kFollowed};
   const double dt = 1e-3;
   const Trajectory t = simulate(s, scheme, dt);

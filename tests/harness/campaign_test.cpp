@@ -79,6 +79,36 @@ TEST_F(CampaignTest, GivesEveryMisbehaviourItsVerdict) {
   EXPECT_TRUE(std::isnan(result(report, "fake-nan", 0.001).metric("position.max")));
 }
 
+TEST_F(CampaignTest, ExpectsTheEndingsThatAreListedAndNoOthers) {
+  const std::pair<const char*, Verdict> listed[] = {{"fake-aborts", Verdict::kCrashed},
+                                                    {"fake-nan", Verdict::kDiverged},
+                                                    {"fake-throws", Verdict::kError},
+                                                    {"fake-honest", Verdict::kError},
+                                                    {"fake-chatty", Verdict::kTimedOut}};
+  for (const auto& [engine, ends] : listed) {
+    Deviation d = deviation(engine, 0);
+    d.metric.clear();
+    d.ends = ends;
+    deviations_.push_back(d);
+  }
+  const Report report = campaign({"fake-honest", "fake-aborts", "fake-nan", "fake-throws", "fake-chatty"});
+  for (const char* engine : {"fake-aborts", "fake-nan", "fake-throws"}) {
+    const RunResult run = result(report, engine, 0.001);
+    EXPECT_EQ(run.verdict, Verdict::kExpectedFail) << engine << ": " << run.reason;
+    EXPECT_EQ(run.reason, "it lies by one percent");
+  }
+  EXPECT_EQ(result(report, "fake-honest", 0.001).verdict, Verdict::kUnexpectedPass);
+  EXPECT_EQ(result(report, "fake-chatty", 0.001).verdict, Verdict::kPass) << "in time here, too late elsewhere";
+}
+
+TEST_F(CampaignTest, AnEndingThatIsNotTheListedOneIsNoExcuse) {
+  Deviation d = deviation("fake-throws", 0);
+  d.metric.clear();
+  d.ends = Verdict::kCrashed;
+  deviations_ = {d};
+  EXPECT_EQ(result(campaign({"fake-throws"}), "fake-throws", 0.001).verdict, Verdict::kError);
+}
+
 TEST_F(CampaignTest, ExplainsAnHonestErrorByItsScheme) {
   const Report report = campaign({"fake-honest"});
   const RunResult run = result(report, "fake-honest", 0.001);

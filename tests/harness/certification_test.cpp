@@ -45,7 +45,7 @@ std::string described(const Certification& certification) {
 }
 
 // A ball on a spring: every number below is by hand.
-const std::string kOscillator = R"(id = "test/oscillator"
+const std::string kOscillator = R"toml(id = "test/oscillator"
 about = "a ball on a spring"
 source = "none"
 duration = 6
@@ -74,7 +74,7 @@ ball.vx = "-2*sin(2*t)"
 metric = "position.max"
 limit = 1
 reason = "none"
-)";
+)toml";
 
 struct Slip {
   const char* name;
@@ -252,7 +252,7 @@ TEST(Certification, KnowsWhatNothingChanges) {
 
 TEST(Certification, FindsTheCriticalValueByItself) {
   // A box on a slope: gravity is tilted, mu = 0.5 holds it up to atan(0.5).
-  const std::string slope = R"(id = "test/slope"
+  const std::string slope = R"toml(id = "test/slope"
 about = "a box on a slope"
 source = "none"
 duration = 1
@@ -289,7 +289,7 @@ kind = "threshold"
 metric = "threshold.error"
 limit = 0.1
 reason = "the resolution"
-)";
+)toml";
   const Certification sound = certified(slope), wrong = certified(replaced(slope, "\"atan(mu)*180/pi\"", "27"));
   EXPECT_TRUE(sound.holds()) << described(sound);
   EXPECT_FALSE(wrong.holds()) << described(wrong);

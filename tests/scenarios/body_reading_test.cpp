@@ -7,7 +7,7 @@ namespace plumbline {
 namespace {
 
 // The body begins in line 9.
-const std::string kSound = R"(id = "test/shapes"
+const std::string kSound = R"toml(id = "test/shapes"
 about = "one body beside another"
 source = "none"
 duration = 1
@@ -33,7 +33,7 @@ kind = "closed_form"
 metric = "position.max"
 limit = 1
 reason = "none"
-)";
+)toml";
 
 std::string fault(const std::string& sound, const std::string& faulty) {
   return fault_of(replaced(kSound, sound, faulty));

@@ -9,7 +9,7 @@ namespace plumbline {
 namespace {
 
 // Lines are counted from id = 1; the joint begins in line 27, the spring in line 36.
-const std::string kSound = R"(id = "test/arm"
+const std::string kSound = R"toml(id = "test/arm"
 about = "an arm on a post, and a ball on a spring"
 source = "none"
 duration = 1
@@ -56,7 +56,7 @@ kind = "closed_form"
 metric = "position.max"
 limit = 1
 reason = "none"
-)";
+)toml";
 
 std::string fault(const std::string& sound, const std::string& faulty) {
   return fault_of(replaced(kSound, sound, faulty));

@@ -8,6 +8,7 @@
 #include "plumbline/core/engine.hpp"
 #include "plumbline/core/gate.hpp"
 #include "plumbline/core/scenario.hpp"
+#include "plumbline/core/verdict.hpp"
 
 namespace plumbline {
 
@@ -18,8 +19,10 @@ struct Deviation {
   Parameters parameters;             // the parameters of the case that must have these values
   std::optional<Profile> profile;
   std::vector<double> dt;  // [s]
-  std::string metric;
-  double limit = 0;  // the failure is expected only while |metric| <= limit; infinity: however large
+  std::string metric;      // empty when `ends` is given
+  double limit = 0;        // the failure is expected only while |metric| <= limit; infinity: however large
+  // Instead of a gate that is missed: the run ends with this verdict, before there is anything to gate.
+  std::optional<Verdict> ends = std::nullopt;
   std::string why;   // the cause
   std::string link;  // issue, manual page or minimal reproduction; may be empty
   SourcePlace place;
