@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
 
 namespace plumbline {
@@ -58,8 +59,14 @@ ChildOutcome run_child(const std::filesystem::path& program, const std::vector<s
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, output.fd(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, messages.fd(), STDERR_FILENO);
+  // Readers of foreign formats keep logs and caches below HOME; a conversion leaves nothing behind.
+  std::vector<char*> environment;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    if (std::string_view(*entry).substr(0, 5) != "HOME=") environment.push_back(*entry);
+  }
+  environment.push_back(nullptr);
   pid_t pid = -1;
-  const int error = posix_spawn(&pid, words.front().c_str(), &actions, nullptr, argv.data(), environ);
+  const int error = posix_spawn(&pid, words.front().c_str(), &actions, nullptr, argv.data(), environment.data());
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) throw std::runtime_error("cannot start " + words.front() + ": " + std::strerror(error));
 

@@ -42,8 +42,13 @@ const Metric& read_metric(const Node& node, const Scenario& scenario) {
                            fmt::join(names, ", ")));
   }
   if (!metric->applies(scenario)) {
-    fail(node,
-         fmt::format("{} means nothing here: there is no event within the duration; add an [[event]]", node.text));
+    const std::string_view quantity = std::string_view(node.text).substr(0, node.text.find('.'));
+    const char* why = quantity == "threshold"         ? "there is no question; add a [threshold]"
+                      : scenario.threshold            ? "a threshold is measured by threshold.error"
+                      : quantity.starts_with("event") ? "there is no event within the duration; add an [[event]]"
+                      : quantity == "joint_gap"       ? "there is no joint; add a [[joint]]"
+                                                      : "the reference does not know it; gate what it knows";
+    fail(node, fmt::format("{} means nothing here: {}", node.text, why));
   }
   return *metric;
 }

@@ -79,11 +79,11 @@ Body read_body(const Node& table, const Parameters& constants, const std::vector
   if (const Node* p = find(table, "position")) body.initial.p_WB = vector3(*p, constants);
   if (std::holds_alternative<HalfSpace>(body.shape)) {
     body.fixed = true;
-    for (const char* key : {"mass", "inertia", "attitude", "velocity", "angular_velocity"}) {
-      if (const Node* node = find(table, key)) fail(*node, "a half_space is always fixed; remove this line");
-    }
     if (const Node* fixed = find(table, "fixed"); fixed != nullptr && !as_boolean(*fixed)) {
       fail(*fixed, "a half_space is always fixed; remove this line");
+    }
+    for (const char* key : {"mass", "inertia", "attitude", "velocity", "angular_velocity"}) {
+      if (const Node* node = find(table, key)) fail(*node, "a half_space is always fixed; remove this line");
     }
     return body;
   }

