@@ -185,7 +185,7 @@ TEST_F(Cli, ParametersStepsAndFiltersSelect) {
   };
   EXPECT_EQ(lines("-f drag_ship -P v0=0,10,30 --dt 0.02 --profile matched"), 3);
   EXPECT_EQ(lines("-f drag_ship -P v0=7 --dt 0.02,1/60"), 4);
-  EXPECT_EQ(lines("-f particle -f -drag_ship --dt 0.02 --profile default"), 1);
+  EXPECT_EQ(lines("-f particle/f -f particle/drag -f -drag_ship --dt 0.02 --profile default"), 1);
 }
 
 TEST_F(Cli, AParameterThatSpoilsAnotherScenarioDoesNoHarm) {
@@ -284,7 +284,7 @@ TEST_F(Cli, CertifiesReferencesAndNamesWhatFails) {
   EXPECT_TRUE(contains(sound.out, "1 references, 1 without a failure")) << sound.out;
 
   std::string text = kFreeFall;
-  write("slow.toml", text.replace(text.find("-9.81*t^2/2"), 4, "-9.8"));
+  write("slow.toml", text.replace(text.find("-9.81*t^2/2"), 5, "-9.8"));
   const Outcome slow = plumbline("certify slow.toml");
   EXPECT_EQ(slow.code, kExitGateFailed) << slow.out;
   EXPECT_TRUE(contains(slow.out, "FAIL  slow.toml:16: my/fall: motion: place against")) << slow.out;
