@@ -71,7 +71,8 @@ double largest_change(const Quantity& quantity, const States& states_at, std::si
   const auto start = quantity(states_at(0));
   double change = 0;
   for (std::size_t k = 1; k < samples; ++k) {
-    const auto difference = quantity(states_at(k)) - start;
+    // A number or a vector, and no expression: that would refer to a vector that is gone.
+    const std::decay_t<decltype(start)> difference = quantity(states_at(k)) - start;
     if constexpr (std::is_arithmetic_v<std::decay_t<decltype(difference)>>) {
       change = max_or_nan(change, std::abs(difference));
     } else {
